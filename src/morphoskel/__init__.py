@@ -1,0 +1,1 @@
+"""Morphological skeletons of 3D shapes, after *MorphoSkel3D* (3DV 2025)."""
