@@ -1,0 +1,53 @@
+# Two commands do all set-up on a fresh machine: `make` runs the default experiment, `make test` runs the tests.
+SHELL := bash
+.SHELLFLAGS := -eu -o pipefail -c
+VENV := .venv
+BIN := $(VENV)/bin
+PYTHON ?= $(shell command -v python3.11 || command -v python3)
+READY := $(VENV)/.ready
+
+.PHONY: all test lint unit format lock help clean
+
+all: $(READY) ## every table and figure on the embedded data set (results/demo)
+	@$(BIN)/morphoskel run
+
+test: lint unit ## format, lint and type checks, unit and property tests, and the smallest experiment end to end
+
+lint: $(READY) ## format, lint and type checks alone
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/snakefmt --check --quiet Snakefile workflow
+	$(BIN)/mypy
+	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/python -m snakemake --lint
+
+unit: $(READY) ## tests alone; `make unit ARGS="-k dilation"` picks some
+	$(BIN)/pytest $(ARGS)
+
+format: $(READY) ## rewrite all code in the project's format
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+	$(BIN)/snakefmt --quiet Snakefile workflow
+
+$(READY): requirements.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; v = sys.version_info[:2]; sys.exit(None if v == (3, 11) else "Python 3.11 is needed, this is %d.%d; name one with: make PYTHON=/path/to/python3.11" % v)'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --disable-pip-version-check --quiet --requirement requirements.lock
+	$(BIN)/pip install --disable-pip-version-check --quiet --no-deps --no-build-isolation --editable .
+	$(BIN)/python -m morphoskel.system_libraries
+	@touch $(READY)
+
+lock: ## pin the newest versions that pyproject.toml admits, in requirements.lock
+	$(PYTHON) -m venv --clear $(VENV)-lock
+	$(VENV)-lock/bin/pip install --disable-pip-version-check --quiet torch==2.13.0 hatchling editables ".[dev]"
+	$(VENV)-lock/bin/python -m morphoskel.lock > requirements.lock
+	rm -rf $(VENV)-lock
+
+help: ## this list
+	@grep -hE '^[a-z]+:.*## ' Makefile | sed -E 's/^([a-z]+):.*## (.*)/  make \1|\2/' | column -t -s '|'
+
+clean: ## remove the results and the generated data; keeps the environment, results/reference and downloads
+	@read -r -p "Remove results/* (but not results/reference) and resources/manifest, resources/data/synthetic*? [y/N] " answer; \
+	if [ "$$answer" = y ]; then \
+		find results -mindepth 1 -maxdepth 1 ! -name README.md ! -name reference -exec rm -rf {} +; \
+		rm -rf resources/manifest resources/data/synthetic*; \
+	fi

@@ -1,0 +1,25 @@
+# The experiments of MorphoSkel3D. Build everything with `snakemake --cores 2` or `morphoskel run`; one table with
+# `morphoskel run table_surface_reconstruction`. Values live in config/, code in src/morphoskel, rules in paper order below.
+from snakemake.utils import min_version
+
+min_version("9.27")
+
+
+include: "workflow/rules/common.smk"
+include: "workflow/rules/data.smk"
+include: "workflow/rules/skeleton.smk"
+include: "workflow/rules/timing.smk"
+include: "workflow/rules/evaluation.smk"
+include: "workflow/rules/tables.smk"
+
+
+report: "workflow/report/workflow.rst"
+
+
+rule all:
+    default_target: True
+    input:
+        rules.write_config.output,
+        rules.table_skeleton_reconstruction.output,
+        rules.table_surface_reconstruction.output,
+        rules.table_processing_time.output,

@@ -1,0 +1,131 @@
+"""Skeletonize files one after the other and write what a user wants to keep."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from morphoskel.config import Config
+from morphoskel.errors import ConfigError, InputError, MorphoSkelError
+
+logger = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class BatchResult:
+    """What became of the input files."""
+
+    written: list[Path]
+    failures: dict[Path, str]
+
+
+def skeletonize_files(
+    inputs: Sequence[Path], folder: Path, config: Config, *, surface: str, plot: bool = False, progress: bool = True
+) -> BatchResult:
+    """Write ``{name}.ply`` and ``{name}.npz``, and with `plot` ``{name}.png``, for every input.
+
+    A file that fails does not stop the others.
+
+    Parameters
+    ----------
+    inputs
+        Clouds or meshes; a folder stands for the supported files in it.
+    folder
+        Where to write.
+    config
+        Composed configuration: surface, watertight, skeleton and seed are used.
+    surface
+        Which of the configured reconstructions rebuilds the surface of a cloud.
+    plot
+        Draw a picture of each skeleton.
+    progress
+        Show a progress bar.
+
+    Returns
+    -------
+    BatchResult
+        Files written, and the reason for each input that failed.
+
+    Raises
+    ------
+    InputError
+        If there is no input, or two inputs would be written to the same name.
+    ConfigError
+        If the reconstruction is not configured.
+    """
+    from tqdm import tqdm
+
+    if surface not in config.surface.names:
+        raise ConfigError(f"surface {surface!r} is not configured; configured are {', '.join(config.surface.names)}")
+    files = name_outputs(inputs)
+    result = BatchResult([], {})
+    for name, path in tqdm(files.items(), unit="shape", disable=not progress):
+        try:
+            result.written.extend(_skeletonize_file(path, name, folder, config, surface=surface, plot=plot))
+        except MorphoSkelError as error:
+            result.failures[path] = str(error)
+    return result
+
+
+def name_outputs(inputs: Sequence[Path]) -> dict[str, Path]:
+    """Return the input files by the name of their output, folders replaced by the supported files in them.
+
+    Raises
+    ------
+    InputError
+        If nothing is left, a path does not exist, or two files share a name.
+    """
+    from morphoskel.formats import SUPPORTED_SUFFIXES
+
+    named: dict[str, Path] = {}
+    for given in inputs:
+        if not given.exists():
+            raise InputError(f"{given}: no such file or folder")
+        found = [given] if given.is_file() else sorted(given.iterdir())
+        for path in found:
+            if given.is_dir() and path.suffix.lower() not in SUPPORTED_SUFFIXES:
+                continue
+            if path.stem in named:
+                raise InputError(
+                    f"{path} and {named[path.stem]} would both be written as {path.stem!r}; "
+                    "rename one, or write them to different folders"
+                )
+            named[path.stem] = path
+    if not named:
+        raise InputError(
+            f"no shape to skeletonize in {', '.join(map(str, inputs))}; "
+            f"supported are {', '.join(sorted(SUPPORTED_SUFFIXES))}"
+        )
+    return named
+
+
+def _skeletonize_file(
+    path: Path, name: str, folder: Path, config: Config, *, surface: str, plot: bool
+) -> list[Path]:
+    from morphoskel.formats import read_shape, write_skeleton_npz, write_skeleton_ply
+    from morphoskel.skeletonization import skeletonize_shape
+
+    result = skeletonize_shape(
+        read_shape(path),
+        surface=surface,
+        reconstruction=getattr(config.surface, surface).model_dump(),
+        watertight_settings=config.watertight.model_dump(),
+        candidates=config.skeleton.candidates.model_dump(),
+        k=config.skeleton.k,
+        points=config.skeleton.points,
+        seed=config.seed,
+        name=name,
+    )
+    folder.mkdir(parents=True, exist_ok=True)
+    written = [folder / f"{name}.ply", folder / f"{name}.npz"]
+    write_skeleton_ply(written[0], result.skeleton)
+    write_skeleton_npz(written[1], result.skeleton)
+    if plot:
+        from morphoskel.reporting.skeleton_picture import draw_skeleton
+
+        written.append(folder / f"{name}.png")
+        draw_skeleton(written[-1], result.skeleton, result.surface, title=name)
+    logger.info("%s: %r", path, result.skeleton)
+    return written

@@ -1,0 +1,99 @@
+"""Run one stage on every shape of a shard."""
+
+from __future__ import annotations
+
+import importlib
+import logging
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from morphoskel.atomic import atomic_folder
+from morphoskel.pool import Outcome, run_isolated
+from morphoskel.chain.status import Status, read_status, write_status
+from morphoskel.chain.task import Details, Task
+from morphoskel.datasets.manifest import ShapeRecord, read_manifest
+from morphoskel.seeds import derive_seed
+
+logger = logging.getLogger(__name__)
+
+STAGES = ("reconstruct", "watertight", "occupancy", "udf", "dilation", "select_skeleton")
+"""The stages in order; each is a module of this package with a function ``run(task) -> Details``."""
+
+
+def run_shard(
+    stage: str,
+    *,
+    manifest: Path,
+    split: str,
+    shard: int,
+    inputs: Mapping[str, Path],
+    output: Path,
+    settings: Mapping[str, Any],
+    seed: int,
+    workers: int,
+) -> list[Status]:
+    """Run `stage` on the shapes of a shard, side by side, and write one file a shape and ``status.csv``.
+
+    A shape that failed at an earlier stage is not tried again; its row is carried on. A shape that fails here is
+    retried once, alone, and then recorded as failed: the others are not affected.
+
+    Parameters
+    ----------
+    stage
+        One of :data:`STAGES`.
+    manifest
+        The data set's manifest.
+    split, shard
+        Which shapes.
+    inputs
+        Folders of the earlier stages, by name.
+    output
+        Folder to make; appears only when complete.
+    settings
+        Configuration sections of the stage.
+    seed
+        The global seed.
+    workers
+        Shapes run side by side.
+
+    Returns
+    -------
+    list of Status
+        One a shape.
+    """
+    records = {record.id: record for record in read_manifest(manifest, split=split, shard=shard)}
+    rows = {row.id: row for folder in inputs.values() for row in read_status(folder) if row.status == "failed"}
+    with atomic_folder(output) as folder:
+        tasks = {
+            record.id: Task(record, inputs, folder, settings, derive_seed(seed, record.id, stage))
+            for record in records.values()
+            if record.id not in rows
+        }
+        for outcome in run_isolated(
+            _load_stage(stage), tasks, workers=min(workers, max(len(tasks), 1)), preload=[_module(stage)]
+        ):
+            rows[outcome.key] = _status(records[outcome.key], stage, outcome)
+            logger.info("%d/%d %s", len(rows), len(records), _describe(rows[outcome.key]))
+        write_status(folder, rows.values())
+    return list(rows.values())
+
+
+def _module(stage: str) -> str:
+    return f"morphoskel.chain.{stage}"
+
+
+def _load_stage(stage: str) -> Any:
+    return importlib.import_module(_module(stage)).run
+
+
+def _status(record: ShapeRecord, stage: str, outcome: Outcome[Details]) -> Status:
+    details = ";".join(f"{name}={value}" for name, value in (outcome.result or {}).items())
+    status = "failed" if outcome.reason else "ok"
+    return Status(record.id, record.category, status, stage, outcome.reason, outcome.attempts, outcome.seconds, details)
+
+
+def _describe(row: Status) -> str:
+    if row.status == "failed":
+        return f"{row.id}: FAILED at {row.stage} after {row.attempts} attempts: {row.reason}"
+    return f"{row.id}: {row.seconds:.2f} s {row.details}"

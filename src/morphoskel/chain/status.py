@@ -1,0 +1,60 @@
+"""How each shape of a shard fared: the file ``status.csv`` in every stage's folder."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+
+FILE_NAME = "status.csv"
+
+
+@dataclass(frozen=True)
+class Status:
+    """One shape at one stage.
+
+    Parameters
+    ----------
+    id, category
+        From the manifest.
+    status
+        ``ok`` or ``failed``.
+    stage
+        The stage that wrote the row or, of a failed shape, the one that failed.
+    reason
+        Why it failed; empty otherwise.
+    attempts
+        1, or 2 if the shape was retried.
+    seconds
+        Wall time of the last attempt.
+    details
+        Counts that the stage records, as ``name=value`` joined by semicolons.
+    """
+
+    id: str
+    category: str
+    status: str
+    stage: str
+    reason: str
+    attempts: int
+    seconds: float
+    details: str
+
+
+def write_status(folder: Path, rows: Iterable[Status]) -> None:
+    """Write the rows, sorted by shape id, to ``status.csv`` in `folder`."""
+    with (folder / FILE_NAME).open("w", newline="") as stream:
+        writer = csv.DictWriter(stream, [field.name for field in fields(Status)], lineterminator="\n")
+        writer.writeheader()
+        for row in sorted(rows, key=lambda row: row.id):
+            writer.writerow({**asdict(row), "seconds": f"{row.seconds:.3f}"})
+
+
+def read_status(folder: Path) -> list[Status]:
+    """Read the rows of ``status.csv`` in `folder`."""
+    with (folder / FILE_NAME).open(newline="") as stream:
+        return [
+            Status(**{**row, "attempts": int(row["attempts"]), "seconds": float(row["seconds"])})
+            for row in csv.DictReader(stream)
+        ]

@@ -1,0 +1,129 @@
+"""The command ``morphoskel``."""
+
+from __future__ import annotations
+
+import argparse
+import logging
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from morphoskel.errors import MorphoSkelError
+
+logger = logging.getLogger("morphoskel")
+
+DESCRIPTION = "Morphological skeletons of 3D shapes, and the experiments of MorphoSkel3D."
+
+RUN_EXAMPLES = """\
+examples:
+  morphoskel run                                          every table, on the embedded data set
+  morphoskel run table_processing_time                    one table
+  morphoskel run skeleton.k=30 seed=7                     other values
+  morphoskel run dataset=point2skeleton dataset.root=~/p2s   real clouds
+  morphoskel run experiment=paper -- --dry-run            what would be done; after -- come Snakemake's options
+"""
+
+SKELETONIZE_EXAMPLES = """\
+examples:
+  morphoskel skeletonize dragon.ply -o out --plot
+  morphoskel skeletonize clouds/ -o out --surface alpha_shape skeleton.candidates.count=10000000
+"""
+
+CONFIG_EXAMPLES = """\
+examples:
+  morphoskel config
+  morphoskel config experiment=paper dataset.root=/data/p2s
+"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command and return its exit code: 0 done, 1 something failed, 2 wrong usage."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    words, options = _split(words)
+    parsed = _parser().parse_args(words)
+    if options and parsed.command != "run":
+        _parser().error("options after -- are for `morphoskel run` only")
+    logging.basicConfig(level=logging.INFO, format="%(message)s", force=True)
+    try:
+        if parsed.command == "run":
+            return _run(parsed, options)
+        return _skeletonize(parsed) if parsed.command == "skeletonize" else _show_config(parsed)
+    except MorphoSkelError as error:
+        logger.error("morphoskel: %s", error)
+        return 1
+
+
+def _split(words: list[str]) -> tuple[list[str], list[str]]:
+    """Split at the first ``--``."""
+    if "--" not in words:
+        return words, []
+    at = words.index("--")
+    return words[:at], words[at + 1 :]
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser("morphoskel", description=DESCRIPTION)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    run = _add(commands, "run", "build tables, figures or any other target of the workflow", RUN_EXAMPLES)
+    run.add_argument("words", nargs="*", metavar="TARGET | key=value", help="rules, files, and overrides, in any order")
+    one = _add(commands, "skeletonize", "skeletonize shapes of your own: PLY, PCD, OBJ, OFF, STL, XYZ, TXT, NPY, NPZ",
+               SKELETONIZE_EXAMPLES)  # fmt: skip
+    one.add_argument("words", nargs="+", metavar="INPUT | key=value", help="files or folders, and overrides")
+    one.add_argument("-o", "--output", type=Path, required=True, metavar="DIR", help="folder to write to")
+    one.add_argument("--surface", default="poisson", help="how a cloud's surface is rebuilt (default: %(default)s)")
+    one.add_argument("--plot", action="store_true", help="also draw the balls inside the surface, as PNG")
+    config = _add(commands, "config", "print the configuration that the overrides give", CONFIG_EXAMPLES)
+    config.add_argument("words", nargs="*", metavar="key=value", help="overrides")
+    return parser
+
+
+def _add(
+    commands: argparse._SubParsersAction[argparse.ArgumentParser], name: str, summary: str, examples: str
+) -> argparse.ArgumentParser:
+    return commands.add_parser(
+        name,
+        help=summary,
+        description=summary[0].upper() + summary[1:] + ".",
+        epilog=examples,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+
+
+def _is_override(word: str) -> bool:
+    return "=" in word and not Path(word).exists()
+
+
+def _run(parsed: argparse.Namespace, options: list[str]) -> int:
+    from morphoskel.workflow_run import run_workflow
+
+    targets = [word for word in parsed.words if not _is_override(word)]
+    overrides = [word for word in parsed.words if _is_override(word)]
+    return run_workflow(targets, overrides, options)
+
+
+def _skeletonize(parsed: argparse.Namespace) -> int:
+    from morphoskel.batch import skeletonize_files
+    from morphoskel.config import compose
+
+    config = compose([word for word in parsed.words if _is_override(word)])
+    inputs = [Path(word) for word in parsed.words if not _is_override(word)]
+    result = skeletonize_files(inputs, parsed.output, config, surface=parsed.surface, plot=parsed.plot)
+    for path in result.written:
+        logger.info("wrote %s", path)
+    for path, reason in result.failures.items():
+        logger.error("%s: FAILED: %s", path, reason)
+    return 1 if result.failures else 0
+
+
+def _show_config(parsed: argparse.Namespace) -> int:
+    import yaml
+
+    from morphoskel.config import compose
+
+    values = compose(parsed.words).model_dump(mode="json")
+    sys.stdout.write(yaml.safe_dump(values, sort_keys=False))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""Tables and pictures: what the paper printed beside what was computed here."""

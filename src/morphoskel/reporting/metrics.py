@@ -1,0 +1,66 @@
+"""The quantities that tables show: their names, units, number formats, and which direction is better."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from morphoskel.errors import InputError
+
+
+@dataclass(frozen=True)
+class Metric:
+    """A quantity in a table.
+
+    Parameters
+    ----------
+    name
+        Its name in CSV files.
+    title
+        Its name for readers.
+    unit
+        Its unit for readers; empty for distances, which are in the units of the data set.
+    decimals
+        Number of decimals shown, as many as the paper prints.
+    better
+        Which direction is better; ``None`` if rows are not rivals, and no value is to be set in bold.
+    """
+
+    name: str
+    title: str
+    unit: str
+    decimals: int
+    better: Literal["lower", "higher"] | None
+
+    @property
+    def heading(self) -> str:
+        """Title, unit and direction."""
+        details = [self.unit] if self.unit else []
+        if self.better is not None:
+            details.append(f"{self.better} is better")
+        return f"{self.title} ({', '.join(details)})" if details else self.title
+
+
+METRICS = {
+    metric.name: metric
+    for metric in (
+        Metric("cd_recon", "CD-Recon", "", 4, "lower"),
+        Metric("hd_recon", "HD-Recon", "", 4, "lower"),
+        Metric("cd_mat", "CD-MAT", "", 4, "lower"),
+        Metric("hd_mat", "HD-MAT", "", 4, "lower"),
+        Metric("cd_recon_points", "CD-Recon, first term: points to spheres", "", 4, "lower"),
+        Metric("cd_recon_spheres", "CD-Recon, second term: spheres to points", "", 4, "lower"),
+        Metric("seconds", "Time a shape", "seconds", 2, None),
+        Metric("seconds_total", "Time of all shapes", "seconds", 2, None),
+        Metric("shapes", "Shapes", "count", 0, None),
+        Metric("oa", "Overall accuracy", "%", 1, "higher"),
+        Metric("map", "Mean average precision", "%", 1, "higher"),
+        Metric("miou", "Mean intersection over union", "%", 1, "higher"),
+    )
+}
+"""Every metric by name, in the order in which a table shows them."""
+
+
+def find_metric(name: str) -> Metric:
+    """Return the metric of that name, or raise :class:`InputError` with the names that exist."""
+    if name not in METRICS:
+        raise InputError(f"there is no metric {name!r}; known are {', '.join(METRICS)} (morphoskel.reporting.metrics)")
+    return METRICS[name]

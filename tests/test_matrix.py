@@ -1,0 +1,90 @@
+import math
+
+import pandas as pd
+import pytest
+
+from morphoskel.reporting.matrix import cell_text, metric_matrices
+from morphoskel.reporting.metrics import find_metric
+from morphoskel.reporting.table import COLUMNS
+
+
+def frame_of(*rows):
+    """Rows of (method, group, metric, value, paper, n, n failed)."""
+    return pd.DataFrame(
+        [
+            ("set", method, group, metric, value, math.nan, paper, n, n_failed, "0", "correct")
+            for method, group, metric, value, paper, n, n_failed in rows
+        ],
+        columns=list(COLUMNS),
+    )
+
+
+def line(block, label):
+    return next(line for line in block.lines if line.label == label)
+
+
+def test_cells_not_printed_not_run_and_failed_differ():
+    (matrix,) = metric_matrices(
+        frame_of(
+            ("A", "Mug", "oa", math.nan, 50.0, 0, 0),
+            ("B", "Mug", "oa", 60.0, math.nan, 3, 0),
+            ("B", "Cup", "oa", math.nan, 70.0, 0, 2),
+        )
+    )
+    first, second = matrix.blocks
+    assert matrix.groups == ("Mug", "Cup")
+    assert [(row.label, row.cells) for row in first.lines] == [("paper", ("50.0", None)), ("ours", ("not run", None))]
+    assert [(row.label, row.cells) for row in second.lines] == [
+        ("paper", (None, "70.0")),
+        ("ours", ("60.0", "failed")),
+    ]
+
+
+@pytest.mark.parametrize(("metric", "best"), [("cd_recon", [True, False]), ("oa", [False, True])])
+def test_the_best_of_ours_depends_on_the_direction(metric, best):
+    (matrix,) = metric_matrices(
+        frame_of(("A", "Mug", metric, 0.1, math.nan, 1, 0), ("B", "Mug", metric, 0.2, 0.01, 1, 0))
+    )
+    assert [line(block, "ours").best[0] for block in matrix.blocks] == best
+    assert line(matrix.blocks[1], "paper").best == (False,)
+
+
+def test_values_that_look_equal_are_both_best():
+    rows = [(method, "Mug", "cd_recon", value, math.nan, 1, 0) for method, value in (("A", 0.10001), ("B", 0.10002))]
+    (matrix,) = metric_matrices(frame_of(*rows))
+    assert [line(block, "ours").best for block in matrix.blocks] == [(True,), (True,)]
+
+
+def test_a_value_without_rival_is_not_best():
+    (matrix,) = metric_matrices(
+        frame_of(("A", "Mug", "cd_recon", 0.1, math.nan, 1, 0), ("B", "Mug", "cd_recon", math.nan, 0.2, 0, 0))
+    )
+    assert not any(row.best[0] for block in matrix.blocks for row in block.lines)
+
+
+def test_stages_are_no_rivals():
+    (matrix,) = metric_matrices(
+        frame_of(("A", "Mug", "seconds", 0.1, math.nan, 1, 0), ("B", "Mug", "seconds", 0.2, math.nan, 1, 0))
+    )
+    assert not any(line(block, "ours").best[0] for block in matrix.blocks)
+
+
+@pytest.mark.parametrize(
+    ("value", "paper", "text"), [(0.1234, 0.1, "+0.0234"), (0.1, 0.1234, "-0.0234"), (0.1, 0.10001, "0.0000")]
+)
+def test_differences_have_a_sign_unless_they_round_to_zero(value, paper, text):
+    (matrix,) = metric_matrices(frame_of(("A", "Mug", "cd_recon", value, paper, 1, 0)))
+    assert line(matrix.blocks[0], "difference").cells == (text,)
+
+
+def test_metrics_come_in_the_order_of_the_registry():
+    rows = [("A", "Mug", metric, 1.0, math.nan, 1, 0) for metric in ("oa", "hd_recon", "cd_recon")]
+    assert [matrix.metric.name for matrix in metric_matrices(frame_of(*rows))] == ["cd_recon", "hd_recon", "oa"]
+
+
+def test_decimals_of_the_metric():
+    assert [cell_text(1.23456, 1, 0, find_metric(name)) for name in ("cd_recon", "seconds", "oa")] == [
+        "1.2346",
+        "1.23",
+        "1.2",
+    ]

@@ -1,0 +1,73 @@
+# What all rules share: the configuration, the axes of the experiment, and the helpers that read them.
+from pathlib import Path
+
+from morphoskel.config import compose
+from morphoskel.datasets.configured import count_shapes
+from morphoskel.provenance import code_digest, content_hash
+
+CONFIG = compose(config.get("overrides", []), Path(workflow.basedir) / "config")
+SECTIONS = CONFIG.model_dump(mode="json")
+SHAPES = count_shapes(SECTIONS["dataset"], seed=CONFIG.seed)
+
+
+pathvars:
+    results=f"results/{CONFIG.run}",
+    logs=f"results/{CONFIG.run}/logs",
+    benchmarks=f"results/{CONFIG.run}/benchmarks",
+
+
+wildcard_constraints:
+    dataset=CONFIG.dataset.name,
+    split="|".join(SHAPES),
+    surface="|".join(CONFIG.surface.names),
+    shard=r"\d{5}",
+
+
+def section(*keys):
+    """Return one section of the configuration as plain values."""
+    values = SECTIONS
+    for key in keys:
+        values = values[key]
+    return values
+
+
+def shards(split):
+    """Return the names of the shards of a split; static, from the number of shapes."""
+    count = -(-SHAPES[split] // CONFIG.shard_size)
+    return [f"{number:05d}" for number in range(count)]
+
+
+def reconstruction(wildcards):
+    """Return the settings of the surface reconstruction that the wildcard names."""
+    return section("surface", wildcards.surface)
+
+
+def intermediate(folder):
+    """Mark a folder that only later stages read; kept or not, as the configuration says."""
+    return directory(folder) if CONFIG.keep_intermediates else temp(directory(folder))
+
+
+def memory(wildcards, threads):
+    """Return MB for a job whose workers each hold the inner points of one shape (at most half the candidates)."""
+    return 600 + threads * (400 + CONFIG.skeleton.candidates.count * 60 // 1_000_000)
+
+
+def minutes(wildcards):
+    """Return an upper bound on the run time of a shard on one core."""
+    return 10 + CONFIG.shard_size * (2 + CONFIG.skeleton.candidates.count // 2_000_000)
+
+
+def skeleton_shards(wildcards):
+    """Return the skeleton folders of one split and surface."""
+    return expand(rules.select_skeleton.output[0], shard=shards(wildcards.split), allow_missing=True)
+
+
+def provenance():
+    """Return what a table's caption has to tell of its origin."""
+    return {
+        "dataset": CONFIG.dataset.name,
+        "protocol": CONFIG.protocol,
+        "seed": CONFIG.seed,
+        "candidates": f"{CONFIG.skeleton.candidates.count:,} {CONFIG.skeleton.candidates.mode}",
+        "config": content_hash(SECTIONS),
+    }

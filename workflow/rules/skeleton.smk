@@ -1,0 +1,140 @@
+# The per-shape chain. Every rule runs one stage on a shard of shapes; the stages are modules of morphoskel.chain.
+
+rule reconstruct:
+    input:
+        manifest="resources/manifest/{dataset}.csv",
+    output:
+        directory("<results>/surfaces/{dataset}/{split}/{surface}/{shard}"),
+    params:
+        dataset=section("dataset"),
+        dataset_seed=CONFIG.seed,
+        surface="{surface}",
+        reconstruction=reconstruction,
+        seed=CONFIG.seed,
+        digest=code_digest("chain.shard", "chain.reconstruct"),
+    log:
+        "<logs>/reconstruct/{dataset}/{split}/{surface}/{shard}.log",
+    benchmark:
+        "<benchmarks>/reconstruct/{dataset}/{split}/{surface}/{shard}.tsv"
+    threads: CONFIG.workers
+    resources:
+        mem_mb=memory,
+        runtime=minutes,
+    script:
+        "../scripts/run_stage.py"
+
+
+rule watertight:
+    input:
+        manifest="resources/manifest/{dataset}.csv",
+        reconstruct=rules.reconstruct.output[0],
+    output:
+        directory("<results>/watertight/{dataset}/{split}/{surface}/{shard}"),
+    params:
+        watertight=section("watertight"),
+        seed=CONFIG.seed,
+        digest=code_digest("chain.shard", "chain.watertight"),
+    log:
+        "<logs>/watertight/{dataset}/{split}/{surface}/{shard}.log",
+    benchmark:
+        "<benchmarks>/watertight/{dataset}/{split}/{surface}/{shard}.tsv"
+    threads: CONFIG.workers
+    resources:
+        mem_mb=memory,
+        runtime=minutes,
+    script:
+        "../scripts/run_stage.py"
+
+
+rule occupancy:
+    input:
+        manifest="resources/manifest/{dataset}.csv",
+        watertight=rules.watertight.output[0],
+    output:
+        intermediate("<results>/occupancy/{dataset}/{split}/{surface}/{shard}"),
+    params:
+        candidates=section("skeleton", "candidates"),
+        seed=CONFIG.seed,
+        digest=code_digest("chain.shard", "chain.occupancy"),
+    log:
+        "<logs>/occupancy/{dataset}/{split}/{surface}/{shard}.log",
+    benchmark:
+        "<benchmarks>/occupancy/{dataset}/{split}/{surface}/{shard}.tsv"
+    threads: CONFIG.workers
+    resources:
+        mem_mb=memory,
+        runtime=minutes,
+    script:
+        "../scripts/run_stage.py"
+
+
+rule udf:
+    input:
+        manifest="resources/manifest/{dataset}.csv",
+        watertight=rules.watertight.output[0],
+        occupancy=rules.occupancy.output[0],
+    output:
+        intermediate("<results>/udf/{dataset}/{split}/{surface}/{shard}"),
+    params:
+        candidates=section("skeleton", "candidates"),
+        seed=CONFIG.seed,
+        digest=code_digest("chain.shard", "chain.udf"),
+    log:
+        "<logs>/udf/{dataset}/{split}/{surface}/{shard}.log",
+    benchmark:
+        "<benchmarks>/udf/{dataset}/{split}/{surface}/{shard}.tsv"
+    threads: CONFIG.workers
+    resources:
+        mem_mb=memory,
+        runtime=minutes,
+    script:
+        "../scripts/run_stage.py"
+
+
+rule dilation:
+    input:
+        manifest="resources/manifest/{dataset}.csv",
+        occupancy=rules.occupancy.output[0],
+        udf=rules.udf.output[0],
+    output:
+        intermediate("<results>/dilation/{dataset}/{split}/{surface}/{shard}"),
+    params:
+        candidates=section("skeleton", "candidates"),
+        k=CONFIG.skeleton.k,
+        seed=CONFIG.seed,
+        digest=code_digest("chain.shard", "chain.dilation"),
+    log:
+        "<logs>/dilation/{dataset}/{split}/{surface}/{shard}.log",
+    benchmark:
+        "<benchmarks>/dilation/{dataset}/{split}/{surface}/{shard}.tsv"
+    threads: CONFIG.workers
+    resources:
+        mem_mb=memory,
+        runtime=minutes,
+    script:
+        "../scripts/run_stage.py"
+
+
+rule select_skeleton:
+    input:
+        manifest="resources/manifest/{dataset}.csv",
+        occupancy=rules.occupancy.output[0],
+        udf=rules.udf.output[0],
+        dilation=rules.dilation.output[0],
+    output:
+        directory("<results>/skeletons/{dataset}/{split}/{surface}/{shard}"),
+    params:
+        candidates=section("skeleton", "candidates"),
+        points=CONFIG.skeleton.points,
+        seed=CONFIG.seed,
+        digest=code_digest("chain.shard", "chain.select_skeleton"),
+    log:
+        "<logs>/select_skeleton/{dataset}/{split}/{surface}/{shard}.log",
+    benchmark:
+        "<benchmarks>/select_skeleton/{dataset}/{split}/{surface}/{shard}.tsv"
+    threads: CONFIG.workers
+    resources:
+        mem_mb=memory,
+        runtime=minutes,
+    script:
+        "../scripts/run_stage.py"
