@@ -104,9 +104,7 @@ def test_skeleton_turns_and_scales_with_the_shape():
     mesh = box(2, 1, 0.6)
     turn = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
     turned = Mesh(mesh.vertices @ turn.T * 2, mesh.triangles)
-    first, second = (
-        ms3d(shape, Candidates(*shape.bounds, 27_000, "grid"), points=200) for shape in (mesh, turned)
-    )
+    first, second = (ms3d(shape, Candidates(*shape.bounds, 27_000, "grid"), points=200) for shape in (mesh, turned))
     assert np.allclose(np.sort(first.radii) * 2, np.sort(second.radii), atol=1e-5)
 
 

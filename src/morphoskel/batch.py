@@ -101,9 +101,7 @@ def name_outputs(inputs: Sequence[Path]) -> dict[str, Path]:
     return named
 
 
-def _skeletonize_file(
-    path: Path, name: str, folder: Path, config: Config, *, surface: str, plot: bool
-) -> list[Path]:
+def _skeletonize_file(path: Path, name: str, folder: Path, config: Config, *, surface: str, plot: bool) -> list[Path]:
     from morphoskel.formats import read_shape, write_skeleton_npz, write_skeleton_ply
     from morphoskel.skeletonization import skeletonize_shape
 

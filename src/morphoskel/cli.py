@@ -40,7 +40,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code: 0 done, 1 something failed, 2 wrong usage."""
     words = list(sys.argv[1:] if arguments is None else arguments)
     words, options = _split(words)
-    parsed = _parser().parse_args(words)
+    parsed, later = _parser().parse_known_args(words)
+    unknown = [word for word in later if word.startswith("-")]
+    if unknown:
+        _parser().error(f"unrecognized arguments: {' '.join(unknown)}")
+    parsed.words += later  # argparse gives up on positional words that come after an option
     if options and parsed.command != "run":
         _parser().error("options after -- are for `morphoskel run` only")
     logging.basicConfig(level=logging.INFO, format="%(message)s", force=True)

@@ -20,7 +20,9 @@ INSTALLERS = frozenset({"pip", "setuptools", "wheel", "morphoskel"})
 
 def lock_lines() -> list[str]:
     """Return one line a distribution, sorted, without local version labels such as ``+cpu``."""
-    installed = {item.metadata["Name"].lower().replace("_", "-"): item.version.split("+")[0] for item in distributions()}
+    installed = {
+        item.metadata["Name"].lower().replace("_", "-"): item.version.split("+")[0] for item in distributions()
+    }
     lines = []
     for name, version in installed.items():
         if name in OPEN3D_WHEELS:

@@ -151,7 +151,7 @@ def _describe_exit(code: int | None) -> str:
 def _main_hidden() -> Iterator[None]:
     """Start workers that do not import the main script, which would run the job again inside each of them."""
     main = sys.modules["__main__"].__dict__
-    hidden = {name: main.pop(name) for name in ("__file__", "__spec__") if name in main}
+    hidden: dict[str, Any] = {name: main.pop(name) for name in ("__file__", "__spec__") if name in main}
     main["__spec__"] = None
     try:
         yield
@@ -167,5 +167,11 @@ def _timed(function: Callable[[T], R], task: T) -> tuple[R, float]:
 def _die_with_parent() -> None:
     """End this worker when the process that started it is gone, so that a killed job leaves no orphans."""
     parent = multiprocessing.parent_process()
-    if parent is not None:
-        threading.Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()
+    if parent is None:
+        return
+
+    def wait_and_exit() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=wait_and_exit, daemon=True).start()

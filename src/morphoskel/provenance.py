@@ -13,7 +13,7 @@ import json
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeGuard
 
 PACKAGE = "morphoskel"
 PACKAGE_FOLDER = Path(__file__).resolve().parent
@@ -93,10 +93,13 @@ def _targets(node: ast.AST) -> Iterable[str]:
         for alias in node.names:
             if _find(f"{node.module}.{alias.name}"):
                 yield f"{node.module}.{alias.name}"
-    elif isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value.startswith(f"{PACKAGE}."):
+    elif isinstance(node, ast.Constant) and _names_module(node.value):
         # A registry names the modules that it imports when they are asked for.
-        if _find(node.value):
-            yield node.value
+        yield node.value
+
+
+def _names_module(value: object) -> TypeGuard[str]:
+    return isinstance(value, str) and value.startswith(f"{PACKAGE}.") and _find(value) is not None
 
 
 class _Stripper(ast.NodeTransformer):

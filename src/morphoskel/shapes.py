@@ -173,7 +173,7 @@ def _finite_rows(array: npt.ArrayLike, name: str, expected_rows: int | None = No
 
 
 def _count_distinct(points: FloatArray) -> int:
-    """Number of distinct rows, counted only as far as needed to reach the minimum."""
+    """Return the number of distinct rows, counted only as far as needed to reach the minimum."""
     distinct = points[:0]
     for row in points:
         if not (distinct == row).all(axis=1).any():

@@ -59,7 +59,32 @@ def minutes(wildcards):
 
 def skeleton_shards(wildcards):
     """Return the skeleton folders of one split and surface."""
-    return expand(rules.select_skeleton.output[0], shard=shards(wildcards.split), allow_missing=True)
+    return expand(
+        rules.select_skeleton.output[0],
+        shard=shards(wildcards.split),
+        allow_missing=True,
+    )
+
+
+def dataset_source(wildcards):
+    """Return the folder of the data set if it is there or a rule makes it; else the manifest job says what to fetch."""
+    made = CONFIG.dataset.kind == "synthetic" or getattr(CONFIG.dataset, "url", None)
+    return (
+        [ancient(section("dataset", "root"))]
+        if made or CONFIG.dataset.root.exists()
+        else []
+    )
+
+
+def of_every_surface(kind):
+    """Return the result files of the evaluated split, one for each surface reconstruction."""
+    return expand(
+        "<results>/{kind}/{dataset}/{split}/{surface}.csv",
+        kind=kind,
+        dataset=CONFIG.dataset.name,
+        split=CONFIG.evaluation.split,
+        surface=CONFIG.surface.names,
+    )
 
 
 def provenance():

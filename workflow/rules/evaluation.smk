@@ -7,17 +7,19 @@ rule evaluate_skeletons:
         skeletons=skeleton_shards,
     output:
         "<results>/evaluation/{dataset}/{split}/{surface}.csv",
+    log:
+        "<logs>/evaluate_skeletons/{dataset}/{split}/{surface}.log",
+    benchmark:
+        "<benchmarks>/evaluate_skeletons/{dataset}/{split}/{surface}.tsv"
+    conda:
+        "morphoskel"
+    resources:
+        mem_mb=1000,
+        runtime=60,
     params:
         dataset=section("dataset"),
         seed=CONFIG.seed,
         max_failed=CONFIG.max_failed,
         digest=code_digest("evaluation.skeletons"),
-    log:
-        "<logs>/evaluate_skeletons/{dataset}/{split}/{surface}.log",
-    benchmark:
-        "<benchmarks>/evaluate_skeletons/{dataset}/{split}/{surface}.tsv"
-    resources:
-        mem_mb=1000,
-        runtime=60,
     script:
         "../scripts/evaluate_skeletons.py"

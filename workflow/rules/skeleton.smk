@@ -1,10 +1,21 @@
 # The per-shape chain. Every rule runs one stage on a shard of shapes; the stages are modules of morphoskel.chain.
 
+
 rule reconstruct:
     input:
         manifest="resources/manifest/{dataset}.csv",
     output:
         directory("<results>/surfaces/{dataset}/{split}/{surface}/{shard}"),
+    log:
+        "<logs>/reconstruct/{dataset}/{split}/{surface}/{shard}.log",
+    benchmark:
+        "<benchmarks>/reconstruct/{dataset}/{split}/{surface}/{shard}.tsv"
+    conda:
+        "morphoskel"
+    threads: CONFIG.workers
+    resources:
+        mem_mb=memory,
+        runtime=minutes,
     params:
         dataset=section("dataset"),
         dataset_seed=CONFIG.seed,
@@ -12,14 +23,6 @@ rule reconstruct:
         reconstruction=reconstruction,
         seed=CONFIG.seed,
         digest=code_digest("chain.shard", "chain.reconstruct"),
-    log:
-        "<logs>/reconstruct/{dataset}/{split}/{surface}/{shard}.log",
-    benchmark:
-        "<benchmarks>/reconstruct/{dataset}/{split}/{surface}/{shard}.tsv"
-    threads: CONFIG.workers
-    resources:
-        mem_mb=memory,
-        runtime=minutes,
     script:
         "../scripts/run_stage.py"
 
@@ -30,18 +33,20 @@ rule watertight:
         reconstruct=rules.reconstruct.output[0],
     output:
         directory("<results>/watertight/{dataset}/{split}/{surface}/{shard}"),
-    params:
-        watertight=section("watertight"),
-        seed=CONFIG.seed,
-        digest=code_digest("chain.shard", "chain.watertight"),
     log:
         "<logs>/watertight/{dataset}/{split}/{surface}/{shard}.log",
     benchmark:
         "<benchmarks>/watertight/{dataset}/{split}/{surface}/{shard}.tsv"
+    conda:
+        "morphoskel"
     threads: CONFIG.workers
     resources:
         mem_mb=memory,
         runtime=minutes,
+    params:
+        watertight=section("watertight"),
+        seed=CONFIG.seed,
+        digest=code_digest("chain.shard", "chain.watertight"),
     script:
         "../scripts/run_stage.py"
 
@@ -52,18 +57,20 @@ rule occupancy:
         watertight=rules.watertight.output[0],
     output:
         intermediate("<results>/occupancy/{dataset}/{split}/{surface}/{shard}"),
-    params:
-        candidates=section("skeleton", "candidates"),
-        seed=CONFIG.seed,
-        digest=code_digest("chain.shard", "chain.occupancy"),
     log:
         "<logs>/occupancy/{dataset}/{split}/{surface}/{shard}.log",
     benchmark:
         "<benchmarks>/occupancy/{dataset}/{split}/{surface}/{shard}.tsv"
+    conda:
+        "morphoskel"
     threads: CONFIG.workers
     resources:
         mem_mb=memory,
         runtime=minutes,
+    params:
+        candidates=section("skeleton", "candidates"),
+        seed=CONFIG.seed,
+        digest=code_digest("chain.shard", "chain.occupancy"),
     script:
         "../scripts/run_stage.py"
 
@@ -75,18 +82,20 @@ rule udf:
         occupancy=rules.occupancy.output[0],
     output:
         intermediate("<results>/udf/{dataset}/{split}/{surface}/{shard}"),
-    params:
-        candidates=section("skeleton", "candidates"),
-        seed=CONFIG.seed,
-        digest=code_digest("chain.shard", "chain.udf"),
     log:
         "<logs>/udf/{dataset}/{split}/{surface}/{shard}.log",
     benchmark:
         "<benchmarks>/udf/{dataset}/{split}/{surface}/{shard}.tsv"
+    conda:
+        "morphoskel"
     threads: CONFIG.workers
     resources:
         mem_mb=memory,
         runtime=minutes,
+    params:
+        candidates=section("skeleton", "candidates"),
+        seed=CONFIG.seed,
+        digest=code_digest("chain.shard", "chain.udf"),
     script:
         "../scripts/run_stage.py"
 
@@ -98,19 +107,21 @@ rule dilation:
         udf=rules.udf.output[0],
     output:
         intermediate("<results>/dilation/{dataset}/{split}/{surface}/{shard}"),
+    log:
+        "<logs>/dilation/{dataset}/{split}/{surface}/{shard}.log",
+    benchmark:
+        "<benchmarks>/dilation/{dataset}/{split}/{surface}/{shard}.tsv"
+    conda:
+        "morphoskel"
+    threads: CONFIG.workers
+    resources:
+        mem_mb=memory,
+        runtime=minutes,
     params:
         candidates=section("skeleton", "candidates"),
         k=CONFIG.skeleton.k,
         seed=CONFIG.seed,
         digest=code_digest("chain.shard", "chain.dilation"),
-    log:
-        "<logs>/dilation/{dataset}/{split}/{surface}/{shard}.log",
-    benchmark:
-        "<benchmarks>/dilation/{dataset}/{split}/{surface}/{shard}.tsv"
-    threads: CONFIG.workers
-    resources:
-        mem_mb=memory,
-        runtime=minutes,
     script:
         "../scripts/run_stage.py"
 
@@ -123,18 +134,20 @@ rule select_skeleton:
         dilation=rules.dilation.output[0],
     output:
         directory("<results>/skeletons/{dataset}/{split}/{surface}/{shard}"),
+    log:
+        "<logs>/select_skeleton/{dataset}/{split}/{surface}/{shard}.log",
+    benchmark:
+        "<benchmarks>/select_skeleton/{dataset}/{split}/{surface}/{shard}.tsv"
+    conda:
+        "morphoskel"
+    threads: CONFIG.workers
+    resources:
+        mem_mb=memory,
+        runtime=minutes,
     params:
         candidates=section("skeleton", "candidates"),
         points=CONFIG.skeleton.points,
         seed=CONFIG.seed,
         digest=code_digest("chain.shard", "chain.select_skeleton"),
-    log:
-        "<logs>/select_skeleton/{dataset}/{split}/{surface}/{shard}.log",
-    benchmark:
-        "<benchmarks>/select_skeleton/{dataset}/{split}/{surface}/{shard}.tsv"
-    threads: CONFIG.workers
-    resources:
-        mem_mb=memory,
-        runtime=minutes,
     script:
         "../scripts/run_stage.py"

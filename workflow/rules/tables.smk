@@ -1,17 +1,6 @@
 # The paper's tables: paper | ours | difference, each as CSV, Markdown and LaTeX.
 
 
-def of_every_surface(kind):
-    """Return the result files of the evaluated split, one for each surface reconstruction."""
-    return expand(
-        "<results>/{kind}/{dataset}/{split}/{surface}.csv",
-        kind=kind,
-        dataset=CONFIG.dataset.name,
-        split=CONFIG.evaluation.split,
-        surface=CONFIG.surface.names,
-    )
-
-
 rule table_skeleton_reconstruction:
     input:
         rows=of_every_surface("evaluation"),
@@ -25,14 +14,16 @@ rule table_skeleton_reconstruction:
             caption="../report/skeleton_reconstruction.rst",
             category="Tables",
         ),
-    params:
-        provenance=provenance(),
-        digest=code_digest("reporting.skeleton_table_files"),
     log:
         "<logs>/table_skeleton_reconstruction.log",
+    conda:
+        "morphoskel"
     resources:
         mem_mb=500,
         runtime=10,
+    params:
+        provenance=provenance(),
+        digest=code_digest("reporting.skeleton_table_files"),
     script:
         "../scripts/write_table.py"
 
@@ -40,7 +31,8 @@ rule table_skeleton_reconstruction:
 rule table_surface_reconstruction:
     input:
         rows=of_every_surface("evaluation"),
-        published=Path(workflow.basedir) / "config/paper/surface_reconstruction_ablation.csv",
+        published=Path(workflow.basedir)
+        / "config/paper/surface_reconstruction_ablation.csv",
         counts=Path(workflow.basedir) / "config/paper/processing_time.csv",
     output:
         csv="<results>/tables/surface_reconstruction.csv",
@@ -50,14 +42,16 @@ rule table_surface_reconstruction:
             caption="../report/surface_reconstruction.rst",
             category="Tables",
         ),
-    params:
-        provenance=provenance(),
-        digest=code_digest("reporting.skeleton_table_files"),
     log:
         "<logs>/table_surface_reconstruction.log",
+    conda:
+        "morphoskel"
     resources:
         mem_mb=500,
         runtime=10,
+    params:
+        provenance=provenance(),
+        digest=code_digest("reporting.skeleton_table_files"),
     script:
         "../scripts/write_table.py"
 
@@ -74,13 +68,15 @@ rule table_processing_time:
             caption="../report/processing_time.rst",
             category="Tables",
         ),
-    params:
-        provenance=provenance(),
-        digest=code_digest("reporting.skeleton_table_files"),
     log:
         "<logs>/table_processing_time.log",
+    conda:
+        "morphoskel"
     resources:
         mem_mb=500,
         runtime=10,
+    params:
+        provenance=provenance(),
+        digest=code_digest("reporting.skeleton_table_files"),
     script:
         "../scripts/write_table.py"

@@ -6,6 +6,17 @@ rule time_stages:
         manifest="resources/manifest/{dataset}.csv",
     output:
         "<results>/timing/{dataset}/{split}/{surface}.csv",
+    log:
+        "<logs>/time_stages/{dataset}/{split}/{surface}.log",
+    benchmark:
+        "<benchmarks>/time_stages/{dataset}/{split}/{surface}.tsv"
+    conda:
+        "morphoskel"
+    # All cores, so that no other job disturbs the measurement.
+    threads: workflow.cores or 1
+    resources:
+        mem_mb=memory,
+        runtime=240,
     params:
         dataset=section("dataset"),
         reconstruction=reconstruction,
@@ -14,14 +25,5 @@ rule time_stages:
         timing=section("timing"),
         seed=CONFIG.seed,
         digest=code_digest("evaluation.timing"),
-    log:
-        "<logs>/time_stages/{dataset}/{split}/{surface}.log",
-    benchmark:
-        "<benchmarks>/time_stages/{dataset}/{split}/{surface}.tsv"
-    # All cores, so that no other job disturbs the measurement.
-    threads: workflow.cores or 1
-    resources:
-        mem_mb=memory,
-        runtime=240,
     script:
         "../scripts/time_stages.py"

@@ -6,6 +6,8 @@ from morphoskel.chain.inner import read_inner_points
 from morphoskel.chain.task import Details, Task
 from morphoskel.morphology import dilation
 
+HEAVY_IMPORTS = ("scipy.spatial",)
+
 
 def run(task: Task) -> Details:
     """Dilate the UDF over the k-nearest-neighbour structuring element and write it as float32."""

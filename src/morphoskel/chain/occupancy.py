@@ -6,6 +6,8 @@ from morphoskel.chain.task import Details, Task
 from morphoskel.formats.read_mesh import read_mesh
 from morphoskel.volume import Candidates, SurfaceQuery, occupancy
 
+HEAVY_IMPORTS = ("open3d",)
+
 
 def run(task: Task) -> Details:
     """Test all candidates and write a bit mask and what is needed to draw the same candidates again."""

@@ -5,6 +5,8 @@ from morphoskel.datasets.configured import open_configured
 from morphoskel.formats import write_mesh_ply
 from morphoskel.surface import reconstruct
 
+HEAVY_IMPORTS = ("open3d",)
+
 
 def run(task: Task) -> Details:
     """Read the shape's cloud, rebuild its surface and write it as PLY."""

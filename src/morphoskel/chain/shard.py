@@ -9,16 +9,19 @@ from pathlib import Path
 from typing import Any
 
 from morphoskel.atomic import atomic_folder
-from morphoskel.pool import Outcome, run_isolated
 from morphoskel.chain.status import Status, read_status, write_status
 from morphoskel.chain.task import Details, Task
 from morphoskel.datasets.manifest import ShapeRecord, read_manifest
+from morphoskel.pool import Outcome, run_isolated
 from morphoskel.seeds import derive_seed
 
 logger = logging.getLogger(__name__)
 
 STAGES = ("reconstruct", "watertight", "occupancy", "udf", "dilation", "select_skeleton")
-"""The stages in order; each is a module of this package with a function ``run(task) -> Details``."""
+"""The stages in order; each is a module of this package with a function ``run(task) -> Details``.
+
+A stage may name ``HEAVY_IMPORTS``: libraries that are imported once and shared by all workers of a job.
+"""
 
 
 def run_shard(
@@ -64,27 +67,20 @@ def run_shard(
     """
     records = {record.id: record for record in read_manifest(manifest, split=split, shard=shard)}
     rows = {row.id: row for folder in inputs.values() for row in read_status(folder) if row.status == "failed"}
+    module = importlib.import_module(f"morphoskel.chain.{stage}")
+    preload = [module.__name__, *getattr(module, "HEAVY_IMPORTS", ())]
     with atomic_folder(output) as folder:
         tasks = {
             record.id: Task(record, inputs, folder, settings, derive_seed(seed, record.id, stage))
             for record in records.values()
             if record.id not in rows
         }
-        for outcome in run_isolated(
-            _load_stage(stage), tasks, workers=min(workers, max(len(tasks), 1)), preload=[_module(stage)]
-        ):
+        workers = max(min(workers, len(tasks)), 1)
+        for outcome in run_isolated(module.run, tasks, workers=workers, preload=preload):
             rows[outcome.key] = _status(records[outcome.key], stage, outcome)
             logger.info("%d/%d %s", len(rows), len(records), _describe(rows[outcome.key]))
         write_status(folder, rows.values())
     return list(rows.values())
-
-
-def _module(stage: str) -> str:
-    return f"morphoskel.chain.{stage}"
-
-
-def _load_stage(stage: str) -> Any:
-    return importlib.import_module(_module(stage)).run
 
 
 def _status(record: ShapeRecord, stage: str, outcome: Outcome[Details]) -> Status:

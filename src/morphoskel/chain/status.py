@@ -54,7 +54,6 @@ def write_status(folder: Path, rows: Iterable[Status]) -> None:
 def read_status(folder: Path) -> list[Status]:
     """Read the rows of ``status.csv`` in `folder`."""
     with (folder / FILE_NAME).open(newline="") as stream:
-        return [
-            Status(**{**row, "attempts": int(row["attempts"]), "seconds": float(row["seconds"])})
-            for row in csv.DictReader(stream)
-        ]
+        rows = list(csv.DictReader(stream))
+    kinds = {"attempts": int, "seconds": float}
+    return [Status(**{name: kinds.get(name, str)(value) for name, value in row.items()}) for row in rows]

@@ -7,6 +7,8 @@ from morphoskel.chain.task import Details, Task
 from morphoskel.formats.read_mesh import read_mesh
 from morphoskel.volume import SurfaceQuery
 
+HEAVY_IMPORTS = ("open3d",)
+
 
 def run(task: Task) -> Details:
     """Measure the UDF of the inner points and write it as float32."""

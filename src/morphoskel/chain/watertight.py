@@ -5,6 +5,8 @@ from morphoskel.formats import write_mesh_ply
 from morphoskel.formats.read_mesh import read_mesh
 from morphoskel.surface import watertight
 
+HEAVY_IMPORTS = ("point_cloud_utils",)
+
 
 def run(task: Task) -> Details:
     """Read the rebuilt surface, close it and write it as PLY."""

@@ -67,7 +67,7 @@ def explain_validation(error: ValidationError, values: Mapping[str, Any]) -> str
 
 
 def _explain_unknown(key: str, groups: Mapping[str, Iterable[str]]) -> str:
-    *parents, last = key.split(".")
+    parents = key.split(".")[:-1]
     known = [name for model in _models(parents, Config) for name in model.model_fields]
     if not known:
         return f"{key}: no such key; {_legal(key, [*_all_keys(Config), *groups])}"

@@ -98,7 +98,9 @@ Dataset = Annotated[
 class Poisson(Section):
     """Screened Poisson reconstruction."""
 
-    depth: Annotated[int, Field(ge=3, le=12)] = Field(description="octree depth, 3 to 12")
+    depth: Annotated[int, Field(ge=5, le=12)] = Field(
+        description="octree depth, 5 to 12; Open3D's solver is unreliable below 5"
+    )
 
 
 class BallPivoting(Section):

@@ -7,8 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from morphoskel.errors import InputError
-from morphoskel.reporting.skeleton_tables import processing_time, skeleton_reconstruction, surface_reconstruction
+from morphoskel.reporting.skeleton_tables import skeleton_reconstruction, surface_reconstruction
 from morphoskel.reporting.table import compose_caption, write_table
+from morphoskel.reporting.time_table import processing_time
 
 TITLES = {
     "skeleton_reconstruction": "Distance between the surface and the balls of each skeleton",

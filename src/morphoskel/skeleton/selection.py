@@ -65,4 +65,4 @@ def skeleton_of(
     """
     residues = residue(udf, dilated)
     chosen = select_smallest_residues(residues, udf, points)
-    return Skeleton(inner[chosen].astype(np.float64), udf[chosen], residues[chosen])
+    return Skeleton(*(array[chosen].astype(np.float64) for array in (inner, udf, residues)))

@@ -38,7 +38,7 @@ def reconstruct_ball_pivoting(
 
     oriented = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(cloud.points))
     oriented.normals = open3d.utility.Vector3dVector(complete_normals(cloud))
-    spacing = float(np.mean(oriented.compute_nearest_neighbor_distance()))
+    spacing = float(np.asarray(oriented.compute_nearest_neighbor_distance()).mean())
     radii = open3d.utility.DoubleVector([factor * spacing for factor in radius_factors])
     mesh = open3d.geometry.TriangleMesh.create_from_point_cloud_ball_pivoting(oriented, radii)
     if len(mesh.triangles) > maximum_triangles:

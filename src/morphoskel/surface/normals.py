@@ -66,7 +66,9 @@ def _estimate_oriented(points: FloatArray) -> FloatArray:
     cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(points))
     cloud.normals = open3d.utility.Vector3dVector(_fit_tangent_planes(points))
     cloud.orient_normals_consistent_tangent_plane(min(NEIGHBOURS, len(points) - 1))
-    normals = np.asarray(cloud.normals)
+    normals: FloatArray = np.array(cloud.normals, dtype=np.float64)
     # The divergence theorem on the whole cloud: the sum of p . n is positive where normals point outward.
-    outward = np.einsum("ij,ij->", points - points.mean(axis=0), normals)
-    return normals if outward >= 0 else -normals
+    outward = float(np.sum((points - points.mean(axis=0)) * normals))
+    if outward < 0:
+        np.negative(normals, out=normals)
+    return normals

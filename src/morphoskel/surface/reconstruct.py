@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from morphoskel.errors import ConfigError, ShapeError
+from morphoskel.native_output import native_output_logged
 from morphoskel.shapes import Mesh, PointCloud
 from morphoskel.surface.alpha_shape import reconstruct_alpha_shape
 from morphoskel.surface.ball_pivoting import reconstruct_ball_pivoting
@@ -49,7 +50,8 @@ def reconstruct(cloud: PointCloud, method: str = "poisson", **settings: Any) -> 
     """
     if method not in METHODS:
         raise ConfigError(f"surface: no such reconstruction {method!r}; legal are {', '.join(METHODS)}")
-    mesh = METHODS[method](cloud, **settings)
+    with native_output_logged(method):
+        mesh = METHODS[method](cloud, **settings)
     if len(mesh.triangles) == 0:
         raise ShapeError(
             f"{method}: no triangle was found on {cloud!r}; the points may be too sparse for its settings {settings}"

@@ -43,6 +43,27 @@ and legs (drawers, stretchers, shelves); a rifle's receiver includes grip, magaz
 CATEGORIES = tuple(PART_NAMES)
 """Names of the categories, in the order of their labels."""
 
+_MODULES: dict[str, str] = {
+    "Airplane": "morphoskel.datasets.synthetic.categories.airplane",
+    "Bag": "morphoskel.datasets.synthetic.categories.bag",
+    "Cap": "morphoskel.datasets.synthetic.categories.cap",
+    "Car": "morphoskel.datasets.synthetic.categories.car",
+    "Chair": "morphoskel.datasets.synthetic.categories.chair",
+    "Earphone": "morphoskel.datasets.synthetic.categories.earphone",
+    "Guitar": "morphoskel.datasets.synthetic.categories.guitar",
+    "Knife": "morphoskel.datasets.synthetic.categories.knife",
+    "Lamp": "morphoskel.datasets.synthetic.categories.lamp",
+    "Laptop": "morphoskel.datasets.synthetic.categories.laptop",
+    "Motorbike": "morphoskel.datasets.synthetic.categories.motorbike",
+    "Mug": "morphoskel.datasets.synthetic.categories.mug",
+    "Pistol": "morphoskel.datasets.synthetic.categories.pistol",
+    "Rocket": "morphoskel.datasets.synthetic.categories.rocket",
+    "Skateboard": "morphoskel.datasets.synthetic.categories.skateboard",
+    "Table": "morphoskel.datasets.synthetic.categories.table",
+    "Rifle": "morphoskel.datasets.synthetic.categories.rifle",
+}
+"""Module of each category's builder; in full, so that a change of a builder is seen as a change of the data."""
+
 
 def part_labels(category: str) -> range:
     """Return the global labels of a category's parts, for example ``range(12, 16)`` for ``Chair``."""
@@ -56,6 +77,6 @@ def part_labels(category: str) -> range:
 
 def find_builder(category: str) -> Callable[[np.random.Generator], list[Part]]:
     """Return the function that builds the parts of a random shape of `category`."""
-    module = importlib.import_module(f"morphoskel.datasets.synthetic.categories.{category.lower()}")
+    module = importlib.import_module(_MODULES[category])
     builder: Callable[[np.random.Generator], list[Part]] = getattr(module, f"build_{category.lower()}")
     return builder

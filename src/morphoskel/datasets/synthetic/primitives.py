@@ -38,7 +38,8 @@ def rounded_box(size: Triple, centre: Triple = (0.0, 0.0, 0.0), radius: float = 
 
 def slab(width: float, thickness: float, depth: float, centre: Triple, corner: float) -> Manifold:
     """Return a horizontal slab (x, y, z extents) whose four vertical edges are rounded with radius `corner`."""
-    return prism(rounded_rectangle(width, depth, corner), thickness, "y").translate(tuple(centre))
+    points = 4 if corner < 0.2 * min(width, depth) else 9
+    return prism(rounded_rectangle(width, depth, corner, points), thickness, "y").translate(tuple(centre))
 
 
 def ball(radii: Triple | float, centre: Triple = (0.0, 0.0, 0.0), segments: int = 20) -> Manifold:
@@ -160,7 +161,10 @@ def lathe_shell(profile: Outline, wall: float, segments: int = 32) -> Manifold:
             strip = manifold3d.CrossSection.square((2 * radius, 4 * wall), True)
             solid += strip.translate((0.0, height + sign * 1.9 * wall))
     inner = solid.offset(-wall, manifold3d.JoinType.Miter, 2.0)
-    return Manifold.revolve(outer - inner, segments).rotate((-90.0, 0.0, 0.0))
+    reach = 2 * float(np.abs(half).max()) + 1.0
+    right_half = manifold3d.CrossSection.square((reach, 2 * reach)).translate((0.0, -reach))
+    # Revolving a section that crosses the axis would leave vertices there that belong to no triangle.
+    return Manifold.revolve((outer - inner) ^ right_half, segments).rotate((-90.0, 0.0, 0.0))
 
 
 def _cross_section(outline: Outline) -> manifold3d.CrossSection:

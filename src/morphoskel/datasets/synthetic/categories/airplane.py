@@ -31,9 +31,8 @@ def _airliner(generator: np.random.Generator) -> list[Part]:
     ]
     size = draw(0.045, 0.065)
     if layout == "two at rear":
-        for engine in both_sides(_nacelle((radius + 0.8 * size, 0.3 * radius, 0.45), size, draw(0.28, 0.36))):
-            parts.append(Part("engine", engine))
-        return parts
+        nacelle = _nacelle((radius + 0.8 * size, 0.3 * radius, 0.45), size, draw(0.28, 0.36))
+        return parts + [Part("engine", side) for side in both_sides(nacelle)]
     for share in (0.33,) if layout.startswith("two") else (0.3, 0.6):
         depth = lead + share * sweep + 0.02
         place = (share * span, height + share * dihedral - 1.35 * size, depth)

@@ -48,7 +48,7 @@ def build_car(generator: np.random.Generator) -> list[Part]:
     cabin = _cabin(half_width, belt, roof, screen, plan.rear_window)
     body = union(body, cabin, *_details(generator, kind, half_width, belt, screen))
     if kind == "pick-up":
-        body -= box((1.6 * half_width, 0.16, 0.33), (0.0, belt + 0.02, 0.79))
+        body -= box((1.3 * half_width, 0.16, 0.33), (0.0, belt + 0.02, 0.79))
     parts = []
     for share in axles:
         body -= rod((-1.0, wheel, share), (1.0, wheel, share), 1.18 * wheel) - box(

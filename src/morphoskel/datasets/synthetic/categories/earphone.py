@@ -39,8 +39,8 @@ def _cup(radius: float, depth: float, pad: float) -> Manifold:
     inner, outer = -0.5 * depth, 0.5 * depth
     pad_radius = radius * max(pad, 0.8)
     profile = [
-        (0.0, 0.1 * depth),
-        (0.5 * pad_radius, 0.1 * depth),
+        (0.0, -0.1 * depth),
+        (0.5 * pad_radius, -0.1 * depth),
         (0.6 * pad_radius, inner),
         (0.9 * pad_radius, inner),
         (pad_radius, 0.5 * inner),
@@ -70,12 +70,12 @@ def _band(generator: np.random.Generator, cup: float) -> list[Manifold]:
         solids.append(_strip(pad_out, pad_in, 1.5 * width))
     if draw() < 0.5:
         for sign in (-1.0, 1.0):
-            solids.append(box((0.06, 0.35, 0.6 * width), (sign * (1.0 + thick / 2), 0.1, 0.0)))
+            solids.append(box((0.05, 0.35, 0.6 * width), (sign * (1.0 + thick / 2), 0.1, 0.0)))
             yoke = tube(embed(arc((0.0, 0.0), (cup * 1.02, cup * 0.95), (0.0, 180.0), 16), "x", sign * 1.0), 0.045, 8)
             solids.append(yoke)
             solids += [rod((sign * 1.0, 0.0, z), (sign * 0.98, 0.0, 0.85 * z), 0.045, segments=10) for z in (-cup, cup)]
     else:
-        solids += [box((0.08, 0.4, 0.8 * width), (sign * (0.99 + thick / 2), 0.05, 0.0)) for sign in (-1.0, 1.0)]
+        solids += [box((0.05, 0.4, 0.8 * width), (sign * (1.0 + thick / 2), 0.05, 0.0)) for sign in (-1.0, 1.0)]
     return [union(*solids)]
 
 

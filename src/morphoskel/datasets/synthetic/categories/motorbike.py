@@ -22,13 +22,23 @@ class _Frame:
     saddle: float  # height of the seat
     head: tuple[float, float]  # height and z of the steering head
 
+    @property
+    def tank_span(self) -> tuple[float, float]:
+        """Front and rear end of the tank along z."""
+        return self.head[1] + 0.1, 0.12
+
+    @property
+    def tank_centre(self) -> tuple[float, float, float]:
+        """Middle of the tank."""
+        return 0.0, 0.5 * (self.head[0] + self.saddle) + 0.03, 0.5 * sum(self.tank_span)
+
 
 def build_motorbike(generator: np.random.Generator) -> list[Part]:
     """Return the parts of a random motorbike about two units long."""
     draw = generator.uniform
     kind = str(generator.choice(["cruiser", "naked", "sports", "trail"]))
     wheel = draw(0.3, 0.37)
-    rake = {"cruiser": draw(0.4, 0.6), "naked": 0.28, "sports": 0.25, "trail": 0.28}[kind]
+    rake = {"cruiser": draw(0.35, 0.48), "naked": 0.28, "sports": 0.25, "trail": 0.28}[kind]
     saddle = wheel + {"cruiser": 0.2, "naked": 0.32, "sports": 0.36, "trail": 0.45}[kind] + draw(-0.03, 0.03)
     head_height = wheel + draw(0.45, 0.55)
     frame = _Frame(-draw(0.7, 0.8), draw(0.6, 0.72), wheel, saddle, (head_height, -0.75 + rake))
@@ -67,9 +77,10 @@ def _wheel(radius: float, tyre: float, spoked: bool) -> Manifold:
     )
     hub = rod((-1.3 * tyre, 0.0, 0.0), (1.3 * tyre, 0.0, 0.0), 0.06)
     count, thickness = (9, 0.014) if spoked else (5, 0.03)
-    spokes = []
-    for angle in 2 * np.pi * np.arange(count) / count:
-        spokes.append(rod((0.0, 0.0, 0.0), (0.0, inner * np.sin(angle), inner * np.cos(angle)), thickness, segments=8))
+    spokes = [
+        rod((0.0, 0.0, 0.0), (0.0, inner * np.sin(angle), inner * np.cos(angle)), thickness, segments=8)
+        for angle in 2 * np.pi * np.arange(count) / count
+    ]
     return union(ring, rim, hub, *spokes)
 
 
@@ -89,6 +100,7 @@ def _chassis(generator: np.random.Generator, frame: _Frame) -> list[Manifold]:
         )
     )
     solids.append(rod((0.0, y - 0.12, z + 0.02), (0.0, low + 0.12, -0.22), 0.035))
+    solids.append(rod((0.0, frame.saddle - 0.03, -0.05), frame.tank_centre, 0.035))
     solids.append(rod((0.0, frame.saddle - 0.06, 0.3), (0.0, low + 0.1, 0.1), 0.035))
     for side in (-0.11, 0.11):
         solids.append(rod((side, low + 0.1, 0.08), (side, frame.wheel, frame.rear), 0.03))
@@ -143,8 +155,8 @@ def _mudguards(frame: _Frame, tyre: float, kind: str) -> list[Manifold]:
 def _tank(generator: np.random.Generator, frame: _Frame) -> Manifold:
     draw = generator.uniform
     height, width = draw(0.1, 0.14), draw(0.13, 0.18)
-    front, back = frame.head[1] + 0.1, 0.12
-    middle_height = 0.5 * (frame.head[0] + frame.saddle) + 0.03
+    front, back = frame.tank_span
+    middle_height = frame.tank_centre[1]
     rings = []
     for share, size in ((0.0, 0.35), (0.1, 0.7), (0.3, 1.0), (0.6, 0.85), (0.9, 0.55), (1.0, 0.35)):
         y = middle_height + (0.5 - share) * 0.6 * (frame.head[0] - frame.saddle)

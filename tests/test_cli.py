@@ -1,0 +1,90 @@
+import numpy as np
+import pytest
+import trimesh
+import yaml
+from solids import sphere_cloud, torus
+
+from morphoskel.cli import main
+from morphoskel.formats import read_skeleton_ply, write_cloud_ply, write_mesh_ply
+
+FAST = [
+    "skeleton.candidates.count=20000",
+    "skeleton.points=32",
+    "surface.poisson.depth=5",
+    "watertight.resolution=2000",
+]
+
+
+def test_skeletonize_writes_skeleton_and_picture(tmp_path, capfd):
+    write_mesh_ply(tmp_path / "torus.ply", torus())
+    code = main(["skeletonize", str(tmp_path / "torus.ply"), "-o", str(tmp_path / "out"), "--plot", *FAST])
+    assert code == 0
+    skeleton = read_skeleton_ply(tmp_path / "out" / "torus.ply")
+    assert len(skeleton) == 32
+    with np.load(tmp_path / "out" / "torus.npz") as stored:
+        assert np.array_equal(stored["radii"], skeleton.radii)
+    assert (tmp_path / "out" / "torus.png").read_bytes().startswith(b"\x89PNG")
+    assert "wrote" in capfd.readouterr().err
+    assert len(trimesh.load(tmp_path / "out" / "torus.ply").vertices) == 32
+
+
+def test_a_broken_file_does_not_stop_the_others(tmp_path, capfd):
+    write_cloud_ply(tmp_path / "good.ply", sphere_cloud(500))
+    (tmp_path / "bad.off").write_text("OFF\n4 1 0\n0 0 0\n")
+    (tmp_path / "notes.md").write_text("not a shape")
+    code = main(["skeletonize", str(tmp_path), "-o", str(tmp_path / "out"), *FAST])
+    assert code == 1
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["good.npz", "good.ply"]
+    assert "bad.off: FAILED" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["skeletonize", "absent.ply", "-o", "out"], "absent.ply: no such file"),
+        (["skeletonize", ".", "-o", "out"], "no shape to skeletonize"),
+        (["skeletonize", ".", "-o", "out", "skeleton.kk=3"], "did you mean 'skeleton.k'"),
+        (["config", "experiment=papr"], "did you mean 'paper'"),
+        (["run"], "holds the workflow"),
+    ],
+)
+def test_errors_are_one_clear_line(words, message, tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    assert main(words) == 1
+    error = capfd.readouterr().err
+    assert message in error
+    assert "Traceback" not in error
+
+
+def test_a_surface_that_is_not_configured_is_refused(tmp_path, capfd):
+    write_cloud_ply(tmp_path / "a.ply", sphere_cloud(100))
+    assert main(["skeletonize", str(tmp_path / "a.ply"), "-o", str(tmp_path), "--surface", "bpa"]) == 1
+    assert "configured are poisson, ball_pivoting, alpha_shape" in capfd.readouterr().err
+
+
+def test_two_inputs_of_one_name_are_refused(tmp_path, capfd):
+    for folder in ("one", "two"):
+        write_cloud_ply(tmp_path / folder / "a.ply", sphere_cloud(100))
+    assert main(["skeletonize", str(tmp_path / "one"), str(tmp_path / "two"), "-o", str(tmp_path / "out")]) == 1
+    assert "would both be written as 'a'" in capfd.readouterr().err
+
+
+def test_config_prints_what_a_run_would_use(capsys):
+    assert main(["config", "experiment=paper", "skeleton.k=30"]) == 0
+    assert yaml.safe_load(capsys.readouterr().out)["skeleton"]["k"] == 30
+
+
+@pytest.mark.parametrize("command", [[], ["run"], ["skeletonize"], ["config"]])
+def test_help_shows_examples(command, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main([*command, "--help"])
+    assert ended.value.code == 0
+    text = capsys.readouterr().out
+    assert "morphoskel" in text
+    assert "examples:" in text or not command
+
+
+def test_snakemake_options_belong_to_run(capsys):
+    with pytest.raises(SystemExit):
+        main(["config", "--", "-n"])
+    assert "morphoskel run" in capsys.readouterr().err

@@ -1,0 +1,75 @@
+import pytest
+import yaml
+from conftest import REPOSITORY
+
+from morphoskel.config import compose, config_folder
+from morphoskel.errors import ConfigError
+
+EXPERIMENTS = sorted(path.stem for path in (REPOSITORY / "config" / "experiment").glob("*.yaml"))
+
+
+def test_the_default_is_the_demo():
+    config = compose()
+    assert config.run == "demo"
+    assert config.dataset.kind == "synthetic"
+    assert config.surface.names == ["poisson", "ball_pivoting", "alpha_shape"]
+
+
+@pytest.mark.parametrize("experiment", EXPERIMENTS)
+def test_every_experiment_composes_and_is_named_like_its_file(experiment):
+    assert compose([f"experiment={experiment}"]).run == experiment
+
+
+@pytest.mark.parametrize("dataset", sorted(path.stem for path in (REPOSITORY / "config" / "dataset").glob("*.yaml")))
+def test_every_data_set_composes(dataset):
+    config = compose([f"dataset={dataset}", "dataset.root=/somewhere"])
+    assert config.dataset.name == dataset
+    assert str(config.dataset.root) == "/somewhere"
+
+
+def test_an_override_beats_the_experiment():
+    config = compose(["experiment=paper", "skeleton.candidates.count=5000", "surface=[alpha_shape]"])
+    assert config.skeleton.candidates.count == 5000
+    assert config.surface.names == ["alpha_shape"]
+
+
+@pytest.mark.parametrize(
+    ("override", "message"),
+    [
+        ("skeleton.kk=3", r"skeleton\.kk: no such key; did you mean 'skeleton\.k'\? Legal: .*skeleton\.points"),
+        ("skelton.k=3", r"skelton\.k: no such key; did you mean 'skeleton\.k'"),
+        ("protocl=released", r"protocl: no such key; did you mean 'protocol'"),
+        ("+skeleton.size=3", r"skeleton\.size: no such key"),
+        ("skeleton.k=one", r"skeleton\.k: .*valid integer.*'one'.*structuring element"),
+        ("skeleton.k=1", r"skeleton\.k: .*greater than or equal to 2"),
+        ("skeleton.candidates.mode=gird", r"skeleton\.candidates\.mode: .*'random' or 'grid'.*'gird'"),
+        ("dataset=pont2skeleton", r"did you mean 'point2skeleton'\? Legal: class_tree, .*synthetic"),
+        ("surface=[poisson,bpa]", r"surface: no such choice 'bpa'; .*ball_pivoting"),
+        ("experiment=papr", r"did you mean 'paper'"),
+        ("dataset=folder", r"dataset\.root: has no default; set it"),
+        ("dataset.url=3", r"dataset\.url"),
+        ("shard_size=0", r"shard_size: .*greater than 0, got 0"),
+        ("run=a/b", r"run: .*pattern"),
+        ("nonsense", r"'nonsense' is not an override; expected key=value"),
+        ("a=b=[", r"is not an override"),
+    ],
+)
+def test_wrong_overrides_name_the_key_and_the_legal_values(override, message):
+    with pytest.raises(ConfigError, match=message):
+        compose([override])
+
+
+def test_overrides_must_be_a_list():
+    with pytest.raises(ConfigError, match="expected a list"):
+        compose("experiment=demo")
+
+
+def test_the_configuration_is_frozen_and_plain():
+    config = compose()
+    with pytest.raises(ValueError, match="frozen"):
+        config.seed = 3
+    assert yaml.safe_load(yaml.safe_dump(config.model_dump(mode="json")))["run"] == "demo"
+
+
+def test_the_tree_is_the_repositorys():
+    assert config_folder() == REPOSITORY / "config"

@@ -1,0 +1,37 @@
+import numpy as np
+import pytest
+from solids import ball
+
+from morphoskel.reporting.render import View, render_balls, render_surface
+from morphoskel.reporting.skeleton_picture import draw_skeleton
+from morphoskel.shapes import Skeleton
+
+VIEW = View(azimuth=0, elevation=0, pixels=120)
+HALF_BALL = Skeleton([[0.0, 0.0, 0.0]], [0.5], [0.0])
+
+
+def test_a_ball_is_drawn_as_a_disc_of_its_size():
+    drawn = (render_surface(ball(), VIEW) < 1).any(axis=2)
+    assert drawn.mean() == pytest.approx(np.pi / 4 / 1.04**2, abs=0.01)
+    rows, columns = np.nonzero(drawn)
+    assert np.allclose([rows.mean(), columns.mean()], 59.5, atol=1)
+
+
+def test_light_falls_from_above():
+    picture = render_surface(ball(), VIEW).mean(axis=2)
+    assert picture[30, 60] > picture[90, 60] + 0.1
+
+
+def test_balls_shine_through_the_surface_in_their_colour():
+    picture = render_balls(HALF_BALL, np.array([[1.0, 0.0, 0.0]]), ball(), VIEW)
+    assert picture[60, 60, 0] > picture[60, 60, 1] + 0.3
+    assert np.ptp(picture[60, 20]) < 0.2  # the veil alone is grey
+    assert (picture[2, 2] == 1).all()
+
+
+def test_the_file_is_a_picture(tmp_path):
+    from PIL import Image
+
+    draw_skeleton(tmp_path / "ball.png", HALF_BALL, ball(), title="ball", view=VIEW)
+    with Image.open(tmp_path / "ball.png") as picture:
+        assert picture.width > picture.height > 200

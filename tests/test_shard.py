@@ -1,0 +1,141 @@
+"""A shard as the workflow runs it: six stages, files in between."""
+
+import hashlib
+
+import numpy as np
+import pytest
+from solids import sphere_cloud
+
+from morphoskel.chain.shard import STAGES, run_shard
+from morphoskel.chain.status import read_status
+from morphoskel.config import compose
+from morphoskel.datasets.configured import open_configured
+from morphoskel.datasets.manifest import build_manifest, write_manifest
+from morphoskel.formats import read_skeleton_ply, write_cloud_ply
+from morphoskel.shapes import PointCloud
+from morphoskel.skeletonization import skeletonize_shape
+
+READS = {
+    "watertight": ["reconstruct"],
+    "occupancy": ["watertight"],
+    "udf": ["watertight", "occupancy"],
+    "dilation": ["occupancy", "udf"],
+    "select_skeleton": ["occupancy", "udf", "dilation"],
+}
+SEED = 11
+
+
+@pytest.fixture(scope="module")
+def sections(tmp_path_factory):
+    root = tmp_path_factory.mktemp("clouds")
+    for number in range(4):
+        cloud = sphere_cloud(400, seed=number)
+        stretched = cloud.points * np.array([1, 1 + 0.2 * number, 0.5])
+        write_cloud_ply(root / f"shape{number}.ply", PointCloud(stretched, cloud.normals))
+    overrides = ["experiment=smoke", "dataset=folder", f"dataset.root={root}", "skeleton.candidates.count=5000"]
+    return compose(
+        [*overrides, "skeleton.points=64", "surface.poisson.depth=5", "watertight.resolution=1000"]
+    ).model_dump(mode="json")
+
+
+def settings_of(stage, sections):
+    skeleton = sections["skeleton"]
+    return {
+        "reconstruct": {
+            "dataset": sections["dataset"],
+            "dataset_seed": SEED,
+            "surface": "poisson",
+            "reconstruction": sections["surface"]["poisson"],
+        },
+        "watertight": {"watertight": sections["watertight"]},
+        "dilation": {"candidates": skeleton["candidates"], "k": skeleton["k"]},
+        "select_skeleton": {"candidates": skeleton["candidates"], "points": skeleton["points"]},
+    }.get(stage, {"candidates": skeleton["candidates"]})
+
+
+def run_chain(folder, sections, shard_size, workers):
+    dataset = open_configured(sections["dataset"], seed=SEED)
+    records = build_manifest(dataset.list_shapes(), shard_size=shard_size)
+    write_manifest(folder / "manifest.csv", records)
+    for shard in sorted({record.shard for record in records}):
+        for stage in STAGES:
+            run_shard(
+                stage,
+                manifest=folder / "manifest.csv",
+                split=records[0].split,
+                shard=shard,
+                inputs={earlier: folder / earlier / str(shard) for earlier in READS.get(stage, [])},
+                output=folder / stage / str(shard),
+                settings=settings_of(stage, sections),
+                seed=SEED,
+                workers=workers,
+            )
+    return {
+        path.name: hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in sorted((folder / "select_skeleton").glob("*/*.ply"))
+    }
+
+
+@pytest.fixture(scope="module")
+def reference(tmp_path_factory, sections):
+    folder = tmp_path_factory.mktemp("reference")
+    return folder, run_chain(folder, sections, shard_size=8, workers=1)
+
+
+@pytest.mark.parametrize(("shard_size", "workers"), [(1, 1), (3, 2)])
+def test_skeletons_do_not_depend_on_shards_or_cores(tmp_path, sections, reference, shard_size, workers):
+    assert len(reference[1]) == 4
+    assert run_chain(tmp_path, sections, shard_size, workers) == reference[1]
+
+
+def test_chain_equals_the_call_in_one_process(sections, reference):
+    dataset = open_configured(sections["dataset"], seed=SEED)
+    entry = sorted(dataset.list_shapes(), key=lambda entry: entry.id)[2]
+    skeleton = skeletonize_shape(
+        dataset.load(entry.path),
+        reconstruction=sections["surface"]["poisson"],
+        watertight_settings=sections["watertight"],
+        candidates=sections["skeleton"]["candidates"],
+        k=sections["skeleton"]["k"],
+        points=sections["skeleton"]["points"],
+        seed=SEED,
+        name=entry.id,
+    ).skeleton
+    stored = read_skeleton_ply(reference[0] / "select_skeleton" / "0" / f"{entry.id}.ply")
+    assert np.array_equal(skeleton.points, stored.points)
+    assert np.array_equal(skeleton.radii, stored.radii)
+    assert np.array_equal(skeleton.residues, stored.residues)
+
+
+def test_intermediates_are_compact(reference):
+    """At most 16 bytes an inner point, and a bit a candidate."""
+    status = {row.id: dict(item.split("=") for item in row.details.split(";"))
+              for row in read_status(reference[0] / "occupancy" / "0")}  # fmt: skip
+    for shape, details in status.items():
+        sizes = [(reference[0] / stage / "0" / f"{shape}.npy").stat().st_size for stage in ("udf", "dilation")]
+        assert sum(sizes) <= 16 * int(details["inside"])
+        assert (reference[0] / "occupancy" / "0" / f"{shape}.npz").stat().st_size < 5000 / 8 + 2500
+
+
+def test_a_failing_shape_is_recorded_and_carried_on(tmp_path, sections):
+    broken = dict(sections, skeleton={**sections["skeleton"], "k": "many"})
+    run_chain(tmp_path, broken, shard_size=8, workers=2)
+    rows = read_status(tmp_path / "select_skeleton" / "0")
+    assert {row.status for row in rows} == {"failed"}
+    assert {(row.stage, row.attempts) for row in rows} == {("dilation", 2)}
+    assert all("TypeError" in row.reason for row in rows)
+    assert not list((tmp_path / "select_skeleton" / "0").glob("*.ply"))
+
+
+def test_one_broken_file_loses_only_itself(tmp_path, sections):
+    root = tmp_path / "clouds"
+    root.mkdir()
+    for number in range(3):
+        write_cloud_ply(root / f"shape{number}.ply", sphere_cloud(400, seed=number))
+    (root / "shape1.ply").write_bytes((root / "shape1.ply").read_bytes()[:-100])
+    altered = dict(sections, dataset={**sections["dataset"], "root": str(root)})
+    skeletons = run_chain(tmp_path, altered, shard_size=8, workers=2)
+    assert len(skeletons) == 2
+    [failed] = [row for row in read_status(tmp_path / "select_skeleton" / "0") if row.status == "failed"]
+    assert failed.stage == "reconstruct"
+    assert "shape1.ply" in failed.reason

@@ -1,0 +1,197 @@
+"""The workflow as a user runs it: the smallest experiment in a copy of the repository that the tests may edit."""
+
+import hashlib
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from conftest import REPOSITORY
+
+pytestmark = pytest.mark.workflow
+
+EXPERIMENTS = sorted(path.stem for path in (REPOSITORY / "config" / "experiment").glob("*.yaml"))
+TABLES = ["skeleton_reconstruction", "surface_reconstruction", "processing_time"]
+CHAIN = ["reconstruct", "watertight", "occupancy", "udf", "dilation", "select_skeleton"]
+
+
+def copy_repository(target: Path) -> Path:
+    target.mkdir(parents=True)
+    for name in ("workflow", "config", "profiles", "src"):
+        shutil.copytree(REPOSITORY / name, target / name, ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copy(REPOSITORY / "Snakefile", target)
+    return target
+
+
+def environment(repository: Path) -> dict[str, str]:
+    return {**os.environ, "PYTHONPATH": str(repository / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
+
+
+def run(repository: Path, *words: str, check: bool = True) -> str:
+    """Call ``morphoskel run`` and return all it printed."""
+    command = [sys.executable, "-m", "morphoskel.cli", "run", *words]
+    done = subprocess.run(
+        command,
+        cwd=repository,
+        env=environment(repository),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    assert (done.returncode == 0) is check, done.stdout[-6000:]
+    return done.stdout
+
+
+def planned(repository: Path, *words: str) -> set[str]:
+    """Return the rules that would run."""
+    output = run(repository, "experiment=smoke", *words, "--", "--dry-run", "--quiet", "rules")
+    detailed = run(repository, "experiment=smoke", *words, "--", "--dry-run")
+    if "Nothing to be done" in detailed + output:
+        return set()
+    return set(re.findall(r"^(?:local)?rule (\w+):", detailed, re.MULTILINE)) - {"all"}
+
+
+def fingerprints(repository: Path, run_name: str = "smoke") -> dict[str, str]:
+    folder = repository / "results" / run_name / "skeletons"
+    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest()
+            for path in sorted(folder.rglob("poisson/*/*.ply"))}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def smoke(tmp_path_factory):
+    repository = copy_repository(tmp_path_factory.mktemp("smoke") / "repository")
+    return repository, run(repository, "experiment=smoke")
+
+
+@pytest.fixture
+def restored(smoke):
+    """Hand out the finished run, and put back whatever file of the library the test edits."""
+    repository = smoke[0]
+    yield repository
+    for path in (REPOSITORY / "src").rglob("*.py"):
+        copy = repository / path.relative_to(REPOSITORY)
+        if copy.read_bytes() != path.read_bytes():
+            shutil.copy(path, copy)
+
+
+@pytest.mark.parametrize("experiment", EXPERIMENTS)
+def test_every_experiment_can_be_planned(experiment, tmp_path):
+    output = run(copy_repository(tmp_path / "repository"), f"experiment={experiment}", "--", "--dry-run")
+    assert "table_skeleton_reconstruction" in output
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_smoke_writes_every_table(smoke, table):
+    repository, output = smoke
+    for suffix in ("csv", "md", "tex"):
+        path = f"results/smoke/tables/{table}.{suffix}"
+        assert path in output
+        assert (repository / path).stat().st_size > 500
+    frame = pd.read_csv(repository / f"results/smoke/tables/{table}.csv", keep_default_na=False)
+    assert list(frame.columns) == ["dataset", "method", "group", "metric", "value", "std", "paper", "n", "n_failed",
+                                   "seeds", "protocol"]  # fmt: skip
+    assert (frame["n_failed"].astype(int) == 0).all()
+    measured = frame[(frame["value"] != "not run") & (frame["group"] == "Chair")]
+    assert (measured["value"].astype(float) > 0).all()
+    assert len(measured) > 0
+
+
+def test_methods_that_did_not_run_say_so(smoke):
+    frame = pd.read_csv(smoke[0] / "results/smoke/tables/skeleton_reconstruction.csv", keep_default_na=False)
+    for method in ("L1", "DPC", "P2S"):
+        rows = frame[frame["method"] == method]
+        assert len(rows) > 10
+        assert set(rows["value"]) == {"not run"}
+    assert "not run" in (smoke[0] / "results/smoke/tables/skeleton_reconstruction.md").read_text()
+
+
+def test_results_hold_the_resolved_configuration(smoke):
+    assert "count: 40000" in (smoke[0] / "results/smoke/config.yaml").read_text()
+
+
+def test_nothing_half_written_stays(smoke):
+    assert list(smoke[0].rglob("*.partial")) == []
+
+
+def test_a_second_run_has_nothing_to_do(smoke):
+    assert planned(smoke[0]) == set()
+
+
+def test_a_new_k_reruns_the_dilation_and_what_follows(smoke):
+    rules = planned(smoke[0], "skeleton.k=10")
+    assert rules == {"dilation", "select_skeleton", "evaluate_skeletons", "time_stages", "write_config",
+                     *(f"table_{name}" for name in TABLES)}  # fmt: skip
+
+
+def test_a_new_protocol_rewrites_the_tables_only(smoke):
+    assert planned(smoke[0], "protocol=released") == {"write_config", *(f"table_{name}" for name in TABLES)}
+
+
+def test_a_docstring_reruns_nothing(restored):
+    edit(restored / "src/morphoskel/morphology/dilation.py", '"""Return the largest value', '"""Give the largest value')
+    edit(restored / "src/morphoskel/surface/watertight.py", '"""Return a closed', '"""Give a closed')
+    assert planned(restored) == set()
+
+
+def test_an_imported_function_reruns_what_runs_it(restored):
+    edit(restored / "src/morphoskel/morphology/dilation.py", "values.copy()", "values.copy() + 0")
+    rules = planned(restored)
+    assert {"dilation", "select_skeleton", "evaluate_skeletons", "time_stages"} <= rules
+    assert not rules & {"reconstruct", "watertight", "occupancy", "udf", "write_manifest", "generate_synthetic"}
+
+
+def test_a_lost_shard_is_made_again_alone(smoke):
+    folder = next((smoke[0] / "results/smoke/udf").rglob("status.csv")).parent
+    kept = folder.rename(folder.with_name("kept"))
+    output = run(smoke[0], "experiment=smoke", "--", "--dry-run", "--", str(folder.relative_to(smoke[0])))
+    kept.rename(folder)
+    assert re.findall(r"^(?:local)?rule (\w+):", output, re.MULTILINE) == ["udf"]
+
+
+def edit(path: Path, old: str, new: str):
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+
+
+def test_a_killed_run_goes_on_to_the_same_skeletons(smoke, tmp_path):
+    repository = copy_repository(tmp_path / "repository")
+    shutil.copytree(smoke[0] / "resources", repository / "resources")
+    words = ["experiment=smoke", "surface=[poisson]", "shard_size=1"]
+    target = "results/smoke/evaluation/synthetic_smoke/test/poisson.csv"
+    command = [sys.executable, "-m", "morphoskel.cli", "run", target, *words]
+    first = subprocess.Popen(command, cwd=repository, env=environment(repository), start_new_session=True,
+                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
+    deadline = time.monotonic() + 200
+    while not list(repository.glob("results/smoke/occupancy/**/status.csv")) and time.monotonic() < deadline:
+        assert first.poll() is None
+        time.sleep(0.05)
+    os.killpg(first.pid, signal.SIGKILL)
+    first.wait()
+    assert not (repository / target).exists()
+    output = run(repository, target, *words)
+    assert "its lock is removed" in output
+    assert fingerprints(repository) == fingerprints(smoke[0])
+    assert list(repository.rglob("*.partial")) == []
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["skeleton.kk=3"], "did you mean 'skeleton.k'"),
+        (["dataset=folder", "dataset.root=absent"], "absent"),
+        (["dataset=point2skeleton", "dataset.root=absent"], "absent"),
+        (["dataset.categories=[Char]"], "Chair"),
+    ],
+)
+def test_mistakes_are_told_before_or_instead_of_work(words, message, tmp_path):
+    repository = copy_repository(tmp_path / "repository")
+    output = run(repository, "table_surface_reconstruction", *words, check=False)
+    assert message in output
+    assert not (repository / "results").exists() or not list(repository.glob("results/*/tables/*"))

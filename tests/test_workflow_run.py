@@ -1,0 +1,49 @@
+import subprocess
+import sys
+
+import pytest
+from conftest import REPOSITORY
+
+from morphoskel.errors import MorphoSkelError
+from morphoskel.workflow_run import find_repository, release_stale_lock, snakemake_command
+
+
+def test_overrides_reach_snakemake_as_one_list():
+    command = snakemake_command(["table_processing_time"], ["skeleton.k=30", "surface=[poisson]"], [])
+    assert command[:4] == [sys.executable, "-m", "snakemake", "table_processing_time"]
+    assert command[-2:] == ["--config", 'overrides=["skeleton.k=30", "surface=[poisson]"]']
+
+
+@pytest.mark.parametrize("option", ["--cores=3", "-c3", "-j", "--profile"])
+def test_cores_are_chosen_only_when_the_user_does_not(option):
+    assert "--cores" in snakemake_command([], [], ["-n"])
+    assert "--cores" not in snakemake_command([], [], [option])
+
+
+def test_the_repository_is_found_from_below():
+    assert find_repository(REPOSITORY / "src" / "morphoskel") == REPOSITORY
+
+
+@pytest.fixture
+def locked(tmp_path):
+    (tmp_path / ".snakemake" / "locks").mkdir(parents=True)
+    (tmp_path / ".snakemake" / "locks" / "0.input.lock").write_text("")
+    return tmp_path
+
+
+def test_a_stale_lock_is_released(locked):
+    release_stale_lock(locked)
+    assert not list((locked / ".snakemake" / "locks").iterdir())
+
+
+def test_the_lock_of_a_living_run_stays(locked):
+    script = locked / "snakemake"
+    script.write_text("import time; time.sleep(60)")
+    living = subprocess.Popen([sys.executable, str(script)], cwd=locked)
+    try:
+        with pytest.raises(MorphoSkelError, match=rf"process {living.pid}"):
+            release_stale_lock(locked)
+        assert list((locked / ".snakemake" / "locks").iterdir())
+    finally:
+        living.kill()
+        living.wait()
