@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 from morphoskel.errors import InputError
-from morphoskel.reporting.contact_sheet import _render, draw_contact_sheet
+from morphoskel.reporting.contact_sheet import draw_contact_sheet
+from morphoskel.reporting.render import View
 from morphoskel.shapes import Mesh, PointCloud
 
 TETRAHEDRON = Mesh(
@@ -21,24 +22,12 @@ def test_meshes_and_clouds_are_drawn(tmp_path):
             "Cloud": [PointCloud(points, labels=np.arange(50) % 4), PointCloud(points)],
         },
         path,
-        dots_per_inch=50,
+        view=View(pixels=80),
     )
     picture = imread(path)
     assert picture.shape[1] == 240
     assert (picture[..., :3].min(axis=2) < 0.9).mean() > 0.02
     assert [file.name for file in tmp_path.iterdir()] == ["sheet.png"]
-
-
-def test_the_nearest_triangle_hides_the_others():
-    square = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0]])
-    far, near = square, square + np.array([0.0, 0, 1])
-    red, blue = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
-    for corners, colours in ((np.stack([far, near]), [red, blue]), (np.stack([near, far]), [blue, red])):
-        picture = _render(corners, np.array(colours))
-        colours_seen = np.unique(picture.reshape(-1, 3), axis=0).tolist()
-        assert colours_seen == [list(blue), [1.0, 1.0, 1.0]]
-        # Half the picture but for its margin is covered, without gaps.
-        assert (picture[..., 0] == 0).mean() == pytest.approx(0.5, abs=0.02)
 
 
 def test_an_empty_sheet_is_refused(tmp_path):

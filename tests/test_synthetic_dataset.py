@@ -1,3 +1,4 @@
+import dataclasses
 import json
 import subprocess
 import sys
@@ -8,8 +9,9 @@ import pytest
 from morphoskel.datasets.dataset import Dataset
 from morphoskel.datasets.registry import open_dataset
 from morphoskel.datasets.synthetic import CATEGORIES, SyntheticDataset, generate_shape, write_shapes
-from morphoskel.errors import DatasetError
+from morphoskel.errors import DatasetError, ShapeError
 from morphoskel.formats.read import read_shape
+from morphoskel.pool import run_isolated
 
 
 @pytest.fixture
@@ -98,13 +100,13 @@ def test_a_folder_with_something_else_is_not_replaced(small):
 def test_a_failure_leaves_nothing_half_written(small, monkeypatch):
     from morphoskel.datasets.synthetic import dataset
 
-    def fail(category, shape_id, *, seed, points):
-        if shape_id == "mug-train-0001":
-            raise RuntimeError("out of clay")
-        return generate_shape(category, shape_id, seed=seed, points=points)
+    def run_but_fail_last(function, tasks, **settings):
+        *whole, last = run_isolated(function, tasks, **settings)
+        yield from whole
+        yield dataclasses.replace(last, reason="out of clay")
 
-    monkeypatch.setattr(dataset, "generate_shape", fail)
-    with pytest.raises(RuntimeError, match="out of clay"):
+    monkeypatch.setattr(dataset, "run_isolated", run_but_fail_last)
+    with pytest.raises(ShapeError, match="could not be built: out of clay"):
         write_shapes(small)
     assert list(small.root.parent.iterdir()) == []
 

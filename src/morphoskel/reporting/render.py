@@ -1,4 +1,4 @@
-"""Draw a surface and balls inside it, by casting one ray a pixel."""
+"""Draw meshes, and balls inside them, by casting rays."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ from morphoskel.shapes import FloatArray, Mesh, Skeleton
 Image = npt.NDArray[np.float64]
 LIGHT = np.array([0.35, 0.65, 0.68])
 """Direction towards the light, in camera coordinates (right, up, towards the viewer)."""
+
+SURFACE_COLOUR = (0.72, 0.76, 0.82)
+VEIL_COLOUR = np.array([0.45, 0.5, 0.58])
 
 OVERSAMPLING = 2
 """Rays along each side of a pixel."""
@@ -55,29 +58,35 @@ class View:
         return np.concatenate([origins, np.broadcast_to(-backward, origins.shape)], axis=-1).astype(np.float32)
 
 
-def render_surface(mesh: Mesh, view: View, colour: tuple[float, float, float] = (0.72, 0.76, 0.82)) -> Image:
-    """Draw an opaque surface.
+def render_mesh(mesh: Mesh, view: View, colours: npt.ArrayLike = SURFACE_COLOUR) -> Image:
+    """Draw an opaque mesh.
 
     Parameters
     ----------
     mesh
-        The surface.
+        The mesh.
     view
         The camera.
-    colour
-        Red, green and blue in [0, 1].
+    colours
+        ``(3,)`` or ``(T, 3)``, red, green and blue in [0, 1] of the whole mesh or of each triangle.
 
     Returns
     -------
     ndarray
         ``(pixels, pixels, 3)`` float64 in [0, 1], on white.
     """
-    depth, normals = _cast(mesh, view.rays(*mesh.bounds))
-    return _smooth(np.where(np.isfinite(depth)[..., None], _shade(np.array(colour), normals, view), 1.0))
+    depth, normals, triangle = _cast(mesh, view.rays(*mesh.bounds))
+    hit = np.isfinite(depth)
+    picture: Image = np.ones((*depth.shape, 3))
+    of_triangle = np.broadcast_to(np.asarray(colours, dtype=np.float64), (len(mesh.triangles), 3))
+    picture[hit] = _shade(of_triangle[triangle[hit]], normals[hit], view)
+    return _smooth(picture)
 
 
-def render_balls(skeleton: Skeleton, colours: FloatArray, surface: Mesh, view: View, veil: float = 0.16) -> Image:
-    """Draw the balls of a skeleton under a translucent surface.
+def render_balls(
+    skeleton: Skeleton, colours: FloatArray, view: View, *, under: Mesh | None = None, veil: float = 0.16
+) -> Image:
+    """Draw balls, if wanted under a translucent surface.
 
     Parameters
     ----------
@@ -85,10 +94,10 @@ def render_balls(skeleton: Skeleton, colours: FloatArray, surface: Mesh, view: V
         Centres and radii.
     colours
         ``(K, 3)`` in [0, 1], one a ball.
-    surface
-        Drawn as a veil over the balls.
     view
         The camera.
+    under
+        A surface drawn as a veil over the balls.
     veil
         Opacity of the surface where it faces the viewer; its outline is denser.
 
@@ -97,20 +106,21 @@ def render_balls(skeleton: Skeleton, colours: FloatArray, surface: Mesh, view: V
     ndarray
         ``(pixels, pixels, 3)`` float64 in [0, 1], on white.
     """
-    rays = view.rays(*surface.bounds)
-    picture: Image = np.ones((*rays.shape[:2], 3))
     balls, owner = _tessellate(skeleton)
-    depth, normals, triangle = _cast_with_triangles(balls, rays)
+    rays = view.rays(*(under or balls).bounds)
+    picture: Image = np.ones((*rays.shape[:2], 3))
+    depth, normals, triangle = _cast(balls, rays)
     hit = np.isfinite(depth)
     ball = owner[triangle[hit]]
     where = rays[hit][:, :3] + depth[hit][:, None] * rays[hit][:, 3:]
     normals[hit] = (where - skeleton.points[ball]) / np.maximum(skeleton.radii[ball], 1e-12)[:, None]
     picture[hit] = _shade(colours[ball], normals[hit], view)
-    depth, normals = _cast(surface, rays)
-    covered = np.isfinite(depth)
-    facing = np.abs(normals[covered] @ view.axes()[2])
-    opacity = (veil + (0.75 - veil) * (1 - facing) ** 3)[:, None]
-    picture[covered] = (1 - opacity) * picture[covered] + opacity * np.array([0.45, 0.5, 0.58])
+    if under is not None:
+        depth, normals, _ = _cast(under, rays)
+        covered = np.isfinite(depth)
+        facing = np.abs(normals[covered] @ view.axes()[2])
+        opacity = (veil + (0.75 - veil) * (1 - facing) ** 3)[:, None]
+        picture[covered] = (1 - opacity) * picture[covered] + opacity * VEIL_COLOUR
     return _smooth(picture)
 
 
@@ -128,14 +138,7 @@ def _shade(colour: FloatArray, normals: FloatArray, view: View) -> Image:
     return np.clip(colour * brightness[..., None], 0, 1)
 
 
-def _cast(mesh: Mesh, rays: npt.NDArray[np.float32]) -> tuple[FloatArray, FloatArray]:
-    depth, normals, _ = _cast_with_triangles(mesh, rays)
-    return depth, normals
-
-
-def _cast_with_triangles(
-    mesh: Mesh, rays: npt.NDArray[np.float32]
-) -> tuple[FloatArray, FloatArray, npt.NDArray[np.uint32]]:
+def _cast(mesh: Mesh, rays: npt.NDArray[np.float32]) -> tuple[FloatArray, FloatArray, npt.NDArray[np.uint32]]:
     """Return depth (infinite where nothing is hit), the normal turned to the viewer, and the triangle, a pixel."""
     import open3d
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from morphoskel.atomic import atomic_file
-from morphoskel.reporting.render import Image, View, render_balls, render_surface
+from morphoskel.reporting.render import Image, View, render_balls, render_mesh
 from morphoskel.shapes import Mesh, Skeleton
 
 COLOUR_MAP = "viridis"
@@ -38,7 +38,7 @@ def draw_skeleton(path: Path, skeleton: Skeleton, surface: Mesh, *, title: str, 
     view = view or View()
     radii = ScalarMappable(Normalize(0, float(skeleton.radii.max())), COLOUR_MAP)
     colours = radii.to_rgba(skeleton.radii)[:, :3]
-    pictures = [render_surface(surface, view), render_balls(skeleton, colours, surface, view)]
+    pictures = [render_mesh(surface, view), render_balls(skeleton, colours, view, under=surface)]
     rows, columns = _extent(pictures)
     shown = [picture[rows, columns] for picture in pictures]
     width = 6.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from morphoskel.shapes import FloatArray, PointCloud
 
@@ -39,14 +40,14 @@ def complete_normals(cloud: PointCloud) -> FloatArray:
     return normals
 
 
-def _fill_unknown(points: FloatArray, normals: FloatArray, known: np.ndarray) -> FloatArray:
+def _fill_unknown(points: FloatArray, normals: FloatArray, known: npt.NDArray[np.bool_]) -> FloatArray:
     from scipy.spatial import cKDTree
 
     _, nearest = cKDTree(points[known]).query(points[~known])
     reference = normals[known][nearest]
-    planes = _fit_tangent_planes(points)[~known]
-    side = np.einsum("ij,ij->i", planes, reference)
-    return np.where(side[:, None] < 0, -planes, planes)
+    planes: FloatArray = _fit_tangent_planes(points)[~known]
+    planes[np.einsum("ij,ij->i", planes, reference) < 0] *= -1
+    return planes
 
 
 def _fit_tangent_planes(points: FloatArray) -> FloatArray:

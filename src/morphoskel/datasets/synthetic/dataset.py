@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import json
-import multiprocessing
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,7 +13,8 @@ from morphoskel.datasets.dataset import check_root, choose_categories
 from morphoskel.datasets.manifest import SAFE_NAME, Entry
 from morphoskel.datasets.synthetic.catalogue import CATEGORIES
 from morphoskel.datasets.synthetic.generate import check_point_count, generate_shape
-from morphoskel.errors import DatasetError
+from morphoskel.errors import DatasetError, ShapeError
+from morphoskel.pool import run_isolated
 
 if TYPE_CHECKING:
     from morphoskel.shapes import PointCloud
@@ -144,10 +142,12 @@ def write_shapes(dataset: SyntheticDataset, *, workers: int = 1, progress: bool 
     Raises
     ------
     DatasetError
-        If there is nothing to generate, the root holds something else, or a worker process died.
+        If there is nothing to generate, or the root holds something else.
     ShapeError
         If a shape cannot be built, which would be a defect of its builder.
     """
+    from tqdm import tqdm
+
     if workers < 1:
         raise DatasetError(f"workers: expected at least 1 process, got {workers}")
     entries = dataset.plan_shapes()
@@ -160,12 +160,14 @@ def write_shapes(dataset: SyntheticDataset, *, workers: int = 1, progress: bool 
             "or empty the folder yourself"
         )
     with atomic_folder(root) as partial:
-        tasks = [_Task(entry.category, entry.id, dataset.seed, dataset.points, partial) for entry in entries]
+        tasks = {entry.id: _Task(entry.category, entry.id, dataset.seed, dataset.points, partial) for entry in entries}
         for kind in ("clouds", "meshes"):
             for category in dataset.categories:
                 (partial / kind / category).mkdir(parents=True)
-        for _ in _with_progress(_run(tasks, workers), len(tasks), progress):
-            pass
+        outcomes = run_isolated(_write_shape, tasks, workers=min(workers, len(tasks)), preload=[__name__])
+        for outcome in tqdm(outcomes, total=len(tasks), desc="generate", unit="shape", disable=not progress):
+            if outcome.reason:
+                raise ShapeError(f"{outcome.key}: could not be built: {outcome.reason}")
         text = json.dumps(dataset._description(), indent=2)
         (partial / DESCRIPTION).write_text(f"{text}\n", encoding="utf-8")
 
@@ -188,27 +190,3 @@ def _write_shape(task: _Task) -> None:
     name = f"{task.shape_id}.ply"
     write_cloud_ply(task.folder / "clouds" / task.category / name, shape.cloud)
     write_mesh_ply(task.folder / "meshes" / task.category / name, shape.mesh)
-
-
-def _run(tasks: Sequence[_Task], workers: int) -> Iterator[None]:
-    """Write the shapes, here or in worker processes, and yield after each."""
-    if workers == 1:
-        yield from map(_write_shape, tasks)
-        return
-    context = multiprocessing.get_context("forkserver")
-    with ProcessPoolExecutor(workers, mp_context=context) as pool:
-        try:
-            yield from pool.map(_write_shape, tasks, chunksize=4)
-        except BrokenProcessPool as error:
-            raise DatasetError(
-                "a worker process died while generating shapes, most often for want of memory; use fewer workers"
-            ) from error
-
-
-def _with_progress(steps: Iterable[None], total: int, progress: bool) -> Iterable[None]:
-    if not progress:
-        return steps
-    from tqdm import tqdm
-
-    bar: Iterable[None] = tqdm(steps, total=total, desc="synthetic shapes", unit="shape")
-    return bar
