@@ -36,10 +36,10 @@ $(READY): requirements.lock pyproject.toml
 	$(BIN)/python -m morphoskel.system_libraries
 	@touch $(READY)
 
-lock: ## pin the newest versions that pyproject.toml admits, in requirements.lock
+lock: ## pin the newest versions that pyproject.toml admits, in requirements.lock and environment.yml
 	$(PYTHON) -m venv --clear $(VENV)-lock
 	$(VENV)-lock/bin/pip install --disable-pip-version-check --quiet torch==2.13.0 hatchling editables ".[dev]"
-	$(VENV)-lock/bin/python -m morphoskel.lock > requirements.lock
+	$(VENV)-lock/bin/python -m morphoskel.lock
 	rm -rf $(VENV)-lock
 
 help: ## this list

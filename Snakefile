@@ -11,6 +11,7 @@ include: "workflow/rules/skeleton.smk"
 include: "workflow/rules/timing.smk"
 include: "workflow/rules/evaluation.smk"
 include: "workflow/rules/tables.smk"
+include: "workflow/rules/figures.smk"
 
 
 report: "workflow/report/workflow.rst"
@@ -23,3 +24,5 @@ rule all:
         rules.table_skeleton_reconstruction.output,
         rules.table_surface_reconstruction.output,
         rules.table_processing_time.output,
+        rules.figure_contact_sheet.output,
+        rules.figure_skeletons.output,

@@ -5,7 +5,7 @@ from importlib.metadata import version
 import yaml
 from conftest import REPOSITORY
 
-from morphoskel.lock import lock_lines
+from morphoskel.lock import conda_lock, lock_lines
 
 LOCK = (REPOSITORY / "requirements.lock").read_text().splitlines()
 
@@ -48,6 +48,8 @@ def test_lines_follow_what_is_installed():
 
 
 def test_conda_uses_the_same_lock():
-    environment = yaml.safe_load((REPOSITORY / "environment.yml").read_text())
-    [pip] = [item for item in environment["dependencies"] if isinstance(item, dict)]
-    assert "--requirement requirements.lock" in pip["pip"]
+    text = (REPOSITORY / "environment.yml").read_text()
+    lines = [line for line in LOCK if not line.startswith("#")]
+    assert text == conda_lock(lines)
+    [pip] = [item for item in yaml.safe_load(text)["dependencies"] if isinstance(item, dict)]
+    assert pip["pip"] == lines

@@ -1,12 +1,33 @@
-"""Print the installed versions as a lock file; run as ``python -m morphoskel.lock`` in an environment made for it."""
+"""Write the installed versions as lock files.
+
+Run as ``python -m morphoskel.lock`` in an environment made for it, from the repository's folder.
+"""
 
 from __future__ import annotations
 
-import sys
+from collections.abc import Sequence
 from importlib.metadata import distributions
+from pathlib import Path
 
-HEADER = """\
+PIP_HEADER = """\
 # Every dependency, pinned. Written by `make lock`; do not edit.
+"""
+
+CONDA_HEADER = """\
+# For conda users; the versions are those of requirements.lock. Written by `make lock`; do not edit.
+#   conda env create -f environment.yml && conda activate morphoskel && pip install --no-deps --editable .
+name: morphoskel
+channels:
+  - conda-forge
+  - nodefaults
+dependencies:
+  - python=3.11
+  - pip
+  - libusb # this and the next three: shared libraries that Open3D loads
+  - libgl
+  - libegl
+  - xorg-libx11
+  - pip:
 """
 
 OPEN3D_WHEELS = {
@@ -32,5 +53,16 @@ def lock_lines() -> list[str]:
     return sorted(lines)
 
 
+def pip_lock(lines: Sequence[str]) -> str:
+    """Return the content of ``requirements.lock``."""
+    return PIP_HEADER + "".join(f"{line}\n" for line in lines)
+
+
+def conda_lock(lines: Sequence[str]) -> str:
+    """Return the content of ``environment.yml``."""
+    return CONDA_HEADER + "".join(f"      - {line}\n" for line in lines)
+
+
 if __name__ == "__main__":
-    sys.stdout.write(HEADER + "\n".join(lock_lines()) + "\n")
+    Path("requirements.lock").write_text(pip_lock(lock_lines()), encoding="utf-8")
+    Path("environment.yml").write_text(conda_lock(lock_lines()), encoding="utf-8")

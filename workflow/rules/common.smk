@@ -1,9 +1,13 @@
 # What all rules share: the configuration, the axes of the experiment, and the helpers that read them.
+import os
 from pathlib import Path
 
 from morphoskel.config import compose
 from morphoskel.datasets.configured import count_shapes
 from morphoskel.provenance import code_digest, content_hash
+
+# The scripts import the library from this clone, also inside an environment that Snakemake deploys.
+os.environ.update(PYTHONPATH=f"{workflow.basedir}/src")
 
 CONFIG = compose(config.get("overrides", []), Path(workflow.basedir) / "config")
 SECTIONS = CONFIG.model_dump(mode="json")
@@ -63,6 +67,17 @@ def skeleton_shards(wildcards):
         rules.select_skeleton.output[0],
         shard=shards(wildcards.split),
         allow_missing=True,
+    )
+
+
+def evaluated_shards(pattern, surface):
+    """Return the folders of the evaluated split under one surface reconstruction."""
+    return expand(
+        pattern,
+        dataset=CONFIG.dataset.name,
+        split=CONFIG.evaluation.split,
+        surface=surface,
+        shard=shards(CONFIG.evaluation.split),
     )
 
 

@@ -7,7 +7,7 @@ rule write_config:
     log:
         "<logs>/write_config.log",
     conda:
-        "morphoskel"
+        "../../environment.yml"
     params:
         config=SECTIONS,
     script:
@@ -24,7 +24,7 @@ if CONFIG.dataset.kind == "synthetic":
         benchmark:
             f"resources/benchmarks/generate_{CONFIG.dataset.name}.tsv"
         conda:
-            "morphoskel"
+            "../../environment.yml"
         threads: workflow.cores or 1
         resources:
             mem_mb=2000,
@@ -45,7 +45,7 @@ if getattr(CONFIG.dataset, "url", None) and not CONFIG.dataset.root.exists():
         log:
             f"resources/logs/download_{CONFIG.dataset.name}.log",
         conda:
-            "morphoskel"
+            "../../environment.yml"
         resources:
             mem_mb=500,
             runtime=600,
@@ -66,7 +66,7 @@ rule write_manifest:
     benchmark:
         "resources/benchmarks/manifest_{dataset}.tsv"
     conda:
-        "morphoskel"
+        "../../environment.yml"
     resources:
         mem_mb=500,
         runtime=60,

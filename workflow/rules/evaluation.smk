@@ -12,7 +12,7 @@ rule evaluate_skeletons:
     benchmark:
         "<benchmarks>/evaluate_skeletons/{dataset}/{split}/{surface}.tsv"
     conda:
-        "morphoskel"
+        "../../environment.yml"
     resources:
         mem_mb=1000,
         runtime=60,

@@ -11,7 +11,7 @@ rule reconstruct:
     benchmark:
         "<benchmarks>/reconstruct/{dataset}/{split}/{surface}/{shard}.tsv"
     conda:
-        "morphoskel"
+        "../../environment.yml"
     threads: CONFIG.workers
     resources:
         mem_mb=memory,
@@ -38,7 +38,7 @@ rule watertight:
     benchmark:
         "<benchmarks>/watertight/{dataset}/{split}/{surface}/{shard}.tsv"
     conda:
-        "morphoskel"
+        "../../environment.yml"
     threads: CONFIG.workers
     resources:
         mem_mb=memory,
@@ -62,7 +62,7 @@ rule occupancy:
     benchmark:
         "<benchmarks>/occupancy/{dataset}/{split}/{surface}/{shard}.tsv"
     conda:
-        "morphoskel"
+        "../../environment.yml"
     threads: CONFIG.workers
     resources:
         mem_mb=memory,
@@ -87,7 +87,7 @@ rule udf:
     benchmark:
         "<benchmarks>/udf/{dataset}/{split}/{surface}/{shard}.tsv"
     conda:
-        "morphoskel"
+        "../../environment.yml"
     threads: CONFIG.workers
     resources:
         mem_mb=memory,
@@ -112,7 +112,7 @@ rule dilation:
     benchmark:
         "<benchmarks>/dilation/{dataset}/{split}/{surface}/{shard}.tsv"
     conda:
-        "morphoskel"
+        "../../environment.yml"
     threads: CONFIG.workers
     resources:
         mem_mb=memory,
@@ -139,7 +139,7 @@ rule select_skeleton:
     benchmark:
         "<benchmarks>/select_skeleton/{dataset}/{split}/{surface}/{shard}.tsv"
     conda:
-        "morphoskel"
+        "../../environment.yml"
     threads: CONFIG.workers
     resources:
         mem_mb=memory,

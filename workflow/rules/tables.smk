@@ -17,7 +17,7 @@ rule table_skeleton_reconstruction:
     log:
         "<logs>/table_skeleton_reconstruction.log",
     conda:
-        "morphoskel"
+        "../../environment.yml"
     resources:
         mem_mb=500,
         runtime=10,
@@ -45,7 +45,7 @@ rule table_surface_reconstruction:
     log:
         "<logs>/table_surface_reconstruction.log",
     conda:
-        "morphoskel"
+        "../../environment.yml"
     resources:
         mem_mb=500,
         runtime=10,
@@ -71,7 +71,7 @@ rule table_processing_time:
     log:
         "<logs>/table_processing_time.log",
     conda:
-        "morphoskel"
+        "../../environment.yml"
     resources:
         mem_mb=500,
         runtime=10,

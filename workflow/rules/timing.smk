@@ -11,7 +11,7 @@ rule time_stages:
     benchmark:
         "<benchmarks>/time_stages/{dataset}/{split}/{surface}.tsv"
     conda:
-        "morphoskel"
+        "../../environment.yml"
     # All cores, so that no other job disturbs the measurement.
     threads: workflow.cores or 1
     resources:

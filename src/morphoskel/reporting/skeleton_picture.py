@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from morphoskel.atomic import atomic_file
 from morphoskel.reporting.render import Image, View, render_balls, render_mesh
-from morphoskel.shapes import Mesh, Skeleton
+from morphoskel.shapes import FloatArray, Mesh, Skeleton
+
+if TYPE_CHECKING:
+    from matplotlib.cm import ScalarMappable
 
 COLOUR_MAP = "viridis"
 
@@ -31,13 +35,10 @@ def draw_skeleton(path: Path, skeleton: Skeleton, surface: Mesh, *, title: str, 
         The camera; a three-quarter view with y up by default.
     """
     from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
     from matplotlib.figure import Figure
 
     view = view or View()
-    radii = ScalarMappable(Normalize(0, float(skeleton.radii.max())), COLOUR_MAP)
-    colours = radii.to_rgba(skeleton.radii)[:, :3]
+    colours, scale = colour_by_radius(skeleton)
     pictures = [render_mesh(surface, view), render_balls(skeleton, colours, view, under=surface)]
     rows, columns = _extent(pictures)
     shown = [picture[rows, columns] for picture in pictures]
@@ -53,9 +54,18 @@ def draw_skeleton(path: Path, skeleton: Skeleton, surface: Mesh, *, title: str, 
     right.set_title(f"{len(skeleton):,} maximal balls")
     for panel in (left, right):
         panel.set_axis_off()
-    figure.colorbar(radii, ax=right, label="ball radius (UDF), in the shape's unit", shrink=0.8, pad=0.02)
+    figure.colorbar(scale, ax=right, label="ball radius (UDF), in the shape's unit", shrink=0.8, pad=0.02)
     with atomic_file(path) as partial:
         figure.savefig(partial, dpi=110, format="png")
+
+
+def colour_by_radius(skeleton: Skeleton) -> tuple[FloatArray, ScalarMappable]:
+    """Return the ``(K, 3)`` colour of each ball, and the scale that a colour bar shows."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    scale = ScalarMappable(Normalize(0, float(skeleton.radii.max())), COLOUR_MAP)
+    return scale.to_rgba(skeleton.radii)[:, :3], scale
 
 
 def _extent(pictures: Sequence[Image], margin: int = 12) -> tuple[slice, slice]:

@@ -12,8 +12,8 @@ from morphoskel.reporting.table import compose_caption, write_table
 from morphoskel.reporting.time_table import processing_time
 
 TITLES = {
-    "skeleton_reconstruction": "Distance between the surface and the balls of each skeleton",
-    "surface_reconstruction": "The same for MS3D on different surface reconstructions",
+    "skeleton_reconstruction": "Distance between the surface and the balls of each skeleton method",
+    "surface_reconstruction": "Distance between the surface and the balls of MS3D, by surface reconstruction",
     "processing_time": "Seconds a shape, by stage",
 }
 

@@ -1,0 +1,83 @@
+"""A page of skeletons: one row a category, one column a surface reconstruction."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from morphoskel.atomic import atomic_file
+from morphoskel.chain.status import read_status
+from morphoskel.datasets.manifest import ShapeRecord
+from morphoskel.errors import InputError
+from morphoskel.formats import read_skeleton_ply
+from morphoskel.formats.read_mesh import read_mesh
+from morphoskel.reporting.contact_sheet import FROM_THE_FRONT
+from morphoskel.reporting.names import surface_name
+from morphoskel.reporting.render import View, render_balls
+from morphoskel.reporting.skeleton_picture import colour_by_radius
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+TILE_INCHES = 2.2
+
+
+def draw_skeleton_gallery(
+    path: Path,
+    records: Sequence[ShapeRecord],
+    meshes: Mapping[str, Sequence[Path]],
+    skeletons: Mapping[str, Sequence[Path]],
+    *,
+    view: View = FROM_THE_FRONT,
+) -> None:
+    """Draw the first shape of each category under every surface reconstruction.
+
+    Parameters
+    ----------
+    path
+        The PNG to write.
+    records
+        The shapes of a split.
+    meshes, skeletons
+        For each reconstruction, the folders of all shards with closed surfaces and with skeletons.
+    view
+        The camera.
+
+    Raises
+    ------
+    InputError
+        If there is nothing to draw.
+    """
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    first: dict[str, ShapeRecord] = {}
+    for record in records:
+        first.setdefault(record.category, record)
+    if not first or not skeletons:
+        raise InputError("a gallery needs at least one shape and one surface reconstruction")
+    size = (TILE_INCHES * len(skeletons), (TILE_INCHES + 0.25) * len(first))
+    figure = Figure(figsize=size, layout="constrained")
+    FigureCanvasAgg(figure)
+    tiles = figure.subplots(len(first), len(skeletons), squeeze=False)
+    for row, (category, record) in zip(tiles, first.items(), strict=True):
+        for axes, surface in zip(row, skeletons, strict=True):
+            axes.set_axis_off()
+            axes.set_title(f"{category}, {surface_name(surface)}", fontsize=8)
+            _draw(axes, record.id, meshes[surface], skeletons[surface], view)
+    with atomic_file(path) as partial:
+        figure.savefig(partial, dpi=view.pixels / TILE_INCHES, format="png")
+
+
+def _draw(axes: Axes, shape: str, meshes: Sequence[Path], skeletons: Sequence[Path], view: View) -> None:
+    """Draw one skeleton, or say why there is none."""
+    status = {row.id: (row, folder) for folder in skeletons for row in read_status(folder)}
+    row, folder = status[shape]
+    if row.status == "failed":
+        axes.text(0.5, 0.5, f"failed at {row.stage}", ha="center", va="center", fontsize=7)
+        return
+    skeleton = read_skeleton_ply(folder / f"{shape}.ply")
+    [surface] = [read_mesh(mesh / f"{shape}.ply") for mesh in meshes if (mesh / f"{shape}.ply").exists()]
+    colours, _ = colour_by_radius(skeleton)
+    axes.imshow(render_balls(skeleton, colours, view, under=surface), interpolation="antialiased")
