@@ -25,7 +25,8 @@ def copy_repository(target: Path) -> Path:
     target.mkdir(parents=True)
     for name in ("workflow", "config", "profiles", "src"):
         shutil.copytree(REPOSITORY / name, target / name, ignore=shutil.ignore_patterns("__pycache__"))
-    shutil.copy(REPOSITORY / "Snakefile", target)
+    for name in ("Snakefile", "environment.yml"):
+        shutil.copy(REPOSITORY / name, target)
     return target
 
 
@@ -125,7 +126,8 @@ def test_a_second_run_has_nothing_to_do(smoke):
 
 def test_a_new_k_reruns_the_dilation_and_what_follows(smoke):
     rules = planned(smoke[0], "skeleton.k=10")
-    assert rules == {"dilation", "select_skeleton", "evaluate_skeletons", "time_stages", "write_config",
+    assert rules == {"dilation", "select_skeleton", "evaluate_skeletons", "time_stages", "figure_skeletons",
+                     "write_config",
                      *(f"table_{name}" for name in TABLES)}  # fmt: skip
 
 
@@ -162,7 +164,7 @@ def edit(path: Path, old: str, new: str):
 
 def test_a_killed_run_goes_on_to_the_same_skeletons(smoke, tmp_path):
     repository = copy_repository(tmp_path / "repository")
-    shutil.copytree(smoke[0] / "resources", repository / "resources")
+    shutil.copytree(smoke[0] / "resources" / "data", repository / "resources" / "data")
     words = ["experiment=smoke", "surface=[poisson]", "shard_size=1"]
     target = "results/smoke/evaluation/synthetic_smoke/test/poisson.csv"
     command = [sys.executable, "-m", "morphoskel.cli", "run", target, *words]
@@ -195,3 +197,38 @@ def test_mistakes_are_told_before_or_instead_of_work(words, message, tmp_path):
     output = run(repository, "table_surface_reconstruction", *words, check=False)
     assert message in output
     assert not (repository / "results").exists() or not list(repository.glob("results/*/tables/*"))
+
+
+def test_a_public_archive_is_fetched_unpacked_and_listed(tmp_path):
+    """ModelNet40 in miniature, served from this machine."""
+    import functools
+    import http.server
+    import threading
+    import zipfile
+
+    import numpy as np
+
+    served = tmp_path / "served"
+    served.mkdir()
+    generator = np.random.default_rng(0)
+    with zipfile.ZipFile(served / "mini.zip", "w") as archive:
+        for name, split in (("chair_0001", "train"), ("chair_0002", "test")):
+            rows = "\n".join(",".join(f"{value:.6f}" for value in row) for row in generator.normal(size=(50, 6)))
+            archive.writestr(f"mini/chair/{name}.txt", rows + "\n")
+            archive.writestr(f"mini/modelnet40_{split}.txt", name + "\n")
+        archive.writestr("mini/modelnet40_shape_names.txt", "chair\n")
+    digest = hashlib.sha256((served / "mini.zip").read_bytes()).hexdigest()
+    handler = functools.partial(http.server.SimpleHTTPRequestHandler, directory=str(served))
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    repository = copy_repository(tmp_path / "repository")
+    words = ["resources/manifest/modelnet40.csv", "dataset=modelnet40", "dataset.counts={train: 1, test: 1}",
+             f"dataset.url=http://127.0.0.1:{server.server_address[1]}/mini.zip"]  # fmt: skip
+    try:
+        assert digest in run(repository, *words, check=False)  # asks to confirm the sum that it found
+        run(repository, *words, f"dataset.sha256={digest}")
+    finally:
+        server.shutdown()
+        server.server_close()
+    manifest = pd.read_csv(repository / "resources/manifest/modelnet40.csv")
+    assert manifest["id"].tolist() == ["chair_0002", "chair_0001"]
