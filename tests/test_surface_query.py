@@ -3,10 +3,11 @@ import open3d
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from solids import ball, box, random_rotation, torus, two_components
+from solids import ball, box, random_rotation, sphere_cloud, torus, two_components
 
-from morphoskel.shapes import Mesh
-from morphoskel.volume import SurfaceQuery
+from morphoskel.shapes import Mesh, PointCloud
+from morphoskel.surface import reconstruct, watertight
+from morphoskel.volume import Candidates, SurfaceQuery
 
 
 def uniform(count, seed=0, scale=1.5):
@@ -35,6 +36,20 @@ def test_box_inside_and_distance_are_analytic():
     clear = np.abs(expected) > 1e-5
     assert np.array_equal(query.occupancy(points)[clear], inside[clear])
     assert np.abs(query.udf(points) - expected).max() < 1e-5
+
+
+def test_no_point_far_from_a_thin_shell_is_taken_for_inside():
+    """Rays through edges made single points outside the largest balls of a skeleton, one or two in a million."""
+    cloud = sphere_cloud(2000)
+    above = cloud.points[:, 2] > 0
+    bowl = reconstruct(PointCloud(cloud.points[above], cloud.normals[above]), "ball_pivoting")
+    shell = watertight(bowl, seed=1)
+    query, single_ray_errors = SurfaceQuery(shell), 0
+    for chunk in Candidates(*shell.bounds, count=2_000_000, seed=1).chunks():
+        far = np.abs(np.linalg.norm(chunk, axis=1) - 1) > 0.1
+        assert not query.occupancy(chunk)[far].any()
+        single_ray_errors += query._vote(chunk[far], rays=1).sum()
+    assert single_ray_errors > 0  # else this test shows nothing
 
 
 def naive_distance(mesh, points):
