@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from solids import sphere_cloud
 
-from morphoskel.chain.shard import STAGES, run_shard
+from morphoskel.chain.shard import run_shard
 from morphoskel.chain.status import read_status
 from morphoskel.config import compose
 from morphoskel.datasets.configured import open_configured
@@ -14,6 +14,7 @@ from morphoskel.datasets.manifest import build_manifest, write_manifest
 from morphoskel.formats import read_skeleton_ply, write_cloud_ply
 from morphoskel.shapes import PointCloud
 from morphoskel.skeletonization import skeletonize_shape
+from morphoskel.stages import STAGES
 
 READS = {
     "watertight": ["reconstruct"],

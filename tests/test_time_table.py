@@ -7,7 +7,8 @@ import pytest
 from morphoskel.errors import InputError
 from morphoskel.evaluation.averages import MEAN_OVER_CATEGORIES, MEAN_OVER_SHAPES
 from morphoskel.reporting.table import write_table
-from morphoskel.reporting.time_table import STAGES, TIME_COLUMNS, processing_time
+from morphoskel.reporting.time_table import TIME_COLUMNS, processing_time
+from morphoskel.stages import STAGES
 
 FOLDER = Path(__file__).resolve().parents[1] / "config" / "paper"
 CATEGORIES = ["Airplane", "Chair", "Table", "Lamp", "Guitar", "Earphone", "Mug", "Rifle"]

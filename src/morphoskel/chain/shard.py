@@ -17,12 +17,6 @@ from morphoskel.seeds import derive_seed
 
 logger = logging.getLogger(__name__)
 
-STAGES = ("reconstruct", "watertight", "occupancy", "udf", "dilation", "select_skeleton")
-"""The stages in order; each is a module of this package with a function ``run(task) -> Details``.
-
-A stage may name ``HEAVY_IMPORTS``: libraries that are imported once and shared by all workers of a job.
-"""
-
 
 def run_shard(
     stage: str,
@@ -44,7 +38,8 @@ def run_shard(
     Parameters
     ----------
     stage
-        One of :data:`STAGES`.
+        One of :data:`morphoskel.stages.STAGES`: a module of this package with a function ``run(task) -> Details``.
+        It may name ``HEAVY_IMPORTS``, libraries that are imported once and shared by all workers of the job.
     manifest
         The data set's manifest.
     split, shard

@@ -17,6 +17,7 @@ from morphoskel.morphology import dilation
 from morphoskel.seeds import derive_seed
 from morphoskel.shapes import PointCloud
 from morphoskel.skeleton.selection import skeleton_of
+from morphoskel.stages import STAGES
 from morphoskel.surface import reconstruct, watertight
 from morphoskel.volume import Candidates, SurfaceQuery, inner_points, occupancy
 
@@ -24,8 +25,6 @@ if TYPE_CHECKING:
     import pandas as pd
 
 logger = logging.getLogger(__name__)
-
-STAGES = ("reconstruct", "watertight", "occupancy", "udf", "dilation", "select_skeleton")
 
 
 def time_stages(

@@ -20,18 +20,13 @@ from morphoskel.reporting.comparison import (
 from morphoskel.reporting.names import skeleton_name, surface_name
 from morphoskel.reporting.published import derive_mean_times, published_shape_counts, read_published
 from morphoskel.reporting.table import ResultTable, assemble
+from morphoskel.stages import SKELETON_STAGES, STAGES
 
 if TYPE_CHECKING:
     import pandas as pd
 
 TIME_COLUMNS = ("id", "category", "surface", "stage", "seconds")
 """Columns of the per-shape rows."""
-
-SKELETON_STAGES = ("occupancy", "udf", "dilation", "select_skeleton")
-"""The stages whose sum the paper times as MS3D."""
-
-STAGES = ("reconstruct", "watertight", *SKELETON_STAGES)
-"""All stages, in the order in which they run."""
 
 MACHINE = "The paper's times were measured on an Intel Core i7-12800H with 32 GB, ours on the machine of this run."
 
@@ -40,8 +35,8 @@ def processing_time(times: pd.DataFrame, published_folder: Path, *, dataset: str
     """Build the table of seconds a shape by category: the paper's columns, then each stage and every surface.
 
     The paper's Poisson and Watertight are our stages ``reconstruct`` and ``watertight``, its MS3D is the sum of
-    :data:`SKELETON_STAGES`, all on the Poisson surface. A mean time is always divided by the number of shapes, as it
-    is in the paper, so the rows say ``correct`` under either protocol.
+    :data:`morphoskel.stages.SKELETON_STAGES`, all on the Poisson surface. A mean time is always divided by the number
+    of shapes, as it is in the paper, so the rows say ``correct`` under either protocol.
 
     Parameters
     ----------
