@@ -10,6 +10,8 @@ if TYPE_CHECKING:
     from morphoskel.shapes import Mesh, PointCloud, Skeleton
     from morphoskel.skeletonization import skeletonize
 
+__version__ = "0.1.0"
+
 __all__ = ["Mesh", "PointCloud", "Skeleton", "read_shape", "skeletonize"]
 
 _HOMES = {

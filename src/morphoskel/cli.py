@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from morphoskel import __version__
 from morphoskel.errors import MorphoSkelError
 
 logger = logging.getLogger("morphoskel")
@@ -19,7 +20,7 @@ examples:
   morphoskel run                                          every table, on the embedded data set
   morphoskel run table_processing_time                    one table
   morphoskel run skeleton.k=30 seed=7                     other values
-  morphoskel run dataset=point2skeleton dataset.root=~/p2s   real clouds
+  morphoskel run dataset=point2skeleton dataset.root=/data/p2s run=p2s   real clouds, into results/p2s
   morphoskel run experiment=paper -- --dry-run            what would be done; after -- come Snakemake's options
 """
 
@@ -67,6 +68,7 @@ def _split(words: list[str]) -> tuple[list[str], list[str]]:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser("morphoskel", description=DESCRIPTION)
+    parser.add_argument("--version", action="version", version=f"morphoskel {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     run = _add(commands, "run", "build tables, figures or any other target of the workflow", RUN_EXAMPLES)
     run.add_argument("words", nargs="*", metavar="TARGET | key=value", help="rules, files, and overrides, in any order")
