@@ -8,24 +8,24 @@ from morphoskel.errors import ShapeError
 
 CURVE = smooth_path([(0.0, 0.0, 0.0), (0.0, 1.0, 0.2), (0.5, 1.5, 1.0)], 20)
 SOLIDS = {
-    "box": primitives.box((1.0, 2.0, 3.0)),
-    "rounded_box": primitives.rounded_box((1.0, 2.0, 0.1), radius=0.5),
-    "slab": primitives.slab(1.0, 0.1, 2.0, (0.0, 0.0, 0.0), 0.3),
-    "ball": primitives.ball((1.0, 2.0, 0.5)),
-    "rod": primitives.rod((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), 0.2, 0.1),
-    "beam": primitives.beam((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), 0.2, 0.1, 0.5),
-    "lathe": primitives.lathe([(0.0, 0.0), (1.0, 0.0), (0.5, 1.0), (0.0, 1.0)], "x"),
-    "lathe_shell": primitives.lathe_shell([(1.0, 0.0), (0.8, 1.0), (0.0, 1.2)], 0.05),
-    "prism": primitives.prism([(0.0, 0.0), (1.0, 0.0), (0.0, 2.0)], 0.1, "x"),
-    "tube": primitives.tube(CURVE, 0.1),
-    "loft": primitives.loft(np.stack([embed(arc((0, 0), (1, 1), (0, 330), 12), "z", z) for z in (0.0, 1.0)])),
-    "hull": primitives.hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]),
+    "box": lambda: primitives.box((1.0, 2.0, 3.0)),
+    "rounded_box": lambda: primitives.rounded_box((1.0, 2.0, 0.1), radius=0.5),
+    "slab": lambda: primitives.slab(1.0, 0.1, 2.0, (0.0, 0.0, 0.0), 0.3),
+    "ball": lambda: primitives.ball((1.0, 2.0, 0.5)),
+    "rod": lambda: primitives.rod((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), 0.2, 0.1),
+    "beam": lambda: primitives.beam((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), 0.2, 0.1, 0.5),
+    "lathe": lambda: primitives.lathe([(0.0, 0.0), (1.0, 0.0), (0.5, 1.0), (0.0, 1.0)], "x"),
+    "lathe_shell": lambda: primitives.lathe_shell([(1.0, 0.0), (0.8, 1.0), (0.0, 1.2)], 0.05),
+    "prism": lambda: primitives.prism([(0.0, 0.0), (1.0, 0.0), (0.0, 2.0)], 0.1, "x"),
+    "tube": lambda: primitives.tube(CURVE, 0.1),
+    "loft": lambda: primitives.loft(np.stack([embed(arc((0, 0), (1, 1), (0, 330), 12), "z", z) for z in (0.0, 1.0)])),
+    "hull": lambda: primitives.hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]),
 }
 
 
 @pytest.mark.parametrize("name", SOLIDS)
 def test_every_primitive_is_one_closed_solid(name):
-    solid = SOLIDS[name]
+    solid = SOLIDS[name]()
     assert solid.status() == manifold3d.Error.NoError
     assert solid.volume() > 0
     assert len(solid.decompose()) == 1

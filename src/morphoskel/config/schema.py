@@ -178,7 +178,9 @@ class Config(Section):
     )
     shard_size: PositiveInt = Field(description="shapes a job; does not change results")
     workers: PositiveInt = Field(description="shapes processed side by side in a job, at most the cores given")
-    max_failed: Annotated[int, Field(ge=0)] = Field(description="failed shapes tolerated under each surface reconstruction")
+    max_failed: Annotated[int, Field(ge=0)] = Field(
+        description="failed shapes tolerated under each surface reconstruction"
+    )
     keep_intermediates: bool = Field(
         description="keep occupancy, UDF and dilation: 5 MB a shape and million inner points, and a change of "
         "skeleton.k then reruns the dilation alone; false deletes them as soon as the skeleton is made"

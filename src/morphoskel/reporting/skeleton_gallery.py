@@ -1,4 +1,4 @@
-"""A page of skeletons: one row a category, one column a surface reconstruction."""
+"""A page of skeletons: one row a surface reconstruction, one column a category."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from morphoskel.reporting.skeleton_picture import colour_by_radius
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-TILE_INCHES = 2.2
+TILE_INCHES = 1.7
 
 
 def draw_skeleton_gallery(
@@ -57,15 +57,17 @@ def draw_skeleton_gallery(
         first.setdefault(record.category, record)
     if not first or not skeletons:
         raise InputError("a gallery needs at least one shape and one surface reconstruction")
-    size = (TILE_INCHES * len(skeletons), (TILE_INCHES + 0.25) * len(first))
+    size = (TILE_INCHES * len(first) + 0.25, TILE_INCHES * len(skeletons) + 0.25)
     figure = Figure(figsize=size, layout="constrained")
     FigureCanvasAgg(figure)
-    tiles = figure.subplots(len(first), len(skeletons), squeeze=False)
-    for row, (category, record) in zip(tiles, first.items(), strict=True):
-        for axes, surface in zip(row, skeletons, strict=True):
-            axes.set_axis_off()
-            axes.set_title(f"{category}, {surface_name(surface)}", fontsize=8)
+    tiles = figure.subplots(len(skeletons), len(first), squeeze=False)
+    for row, surface in zip(tiles, skeletons, strict=True):
+        row[0].set_ylabel(surface_name(surface))
+        for axes, record in zip(row, first.values(), strict=True):
+            axes.set(xticks=[], yticks=[], frame_on=False)
             _draw(axes, record.id, meshes[surface], skeletons[surface], view)
+    for axes, category in zip(tiles[0], first, strict=True):
+        axes.set_title(category)
     with atomic_file(path) as partial:
         figure.savefig(partial, dpi=view.pixels / TILE_INCHES, format="png")
 
