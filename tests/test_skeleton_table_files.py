@@ -41,6 +41,14 @@ def test_tables_hold_the_computed_and_the_published_values(name, tmp_path):
         assert word in text
 
 
+def test_categories_that_the_paper_lacks_come_before_the_averages(tmp_path):
+    rows_of("surface_reconstruction", "poisson").assign(category="bed").to_csv(tmp_path / "rows.csv", index=False)
+    published = REPOSITORY / "config" / "paper"
+    write_skeleton_table("surface_reconstruction", [tmp_path / "rows.csv"], published, tmp_path / "table", PROVENANCE)
+    header = next(line for line in (tmp_path / "table.md").read_text().splitlines() if line.startswith("| Method"))
+    assert header.index("Rifle") < header.index("bed") < header.index("Mean over")
+
+
 def test_an_unknown_table_is_refused(tmp_path):
     with pytest.raises(InputError, match="legal are skeleton_reconstruction"):
         write_skeleton_table("nothing", [], tmp_path, tmp_path / "table", PROVENANCE)

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from morphoskel.evaluation.averages import AVERAGES
 from morphoskel.reporting.metrics import METRICS, Metric, find_metric
 
 if TYPE_CHECKING:
@@ -93,7 +94,8 @@ def cell_text(value: float, n: int, n_failed: int, metric: Metric) -> str:
 
 def _metric_matrix(metric: Metric, rows: pd.DataFrame) -> MetricMatrix:
     """Lay out the rows of one metric."""
-    groups = tuple(dict.fromkeys(map(str, rows["group"])))
+    # A method may have groups that the methods before it lack, so that appearance alone would put them behind averages.
+    groups = tuple(sorted(dict.fromkeys(map(str, rows["group"])), key=lambda group: group in AVERAGES))
     cells: dict[str, dict[str, _Cell]] = {}
     columns = ("method", "group", "value", "paper", "n", "n_failed")
     for method, group, value, paper, n, n_failed in zip(*(rows[column] for column in columns), strict=True):
