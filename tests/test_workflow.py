@@ -148,6 +148,12 @@ def test_an_imported_function_reruns_what_runs_it(restored):
     assert not rules & {"reconstruct", "watertight", "occupancy", "udf", "write_manifest", "generate_synthetic"}
 
 
+def test_a_changed_builder_makes_the_shapes_and_all_that_follows_again(restored):
+    edit(restored / "src/morphoskel/datasets/synthetic/categories/mug.py", "draw = generator.uniform",
+         "draw = generator.normal")  # fmt: skip
+    assert {"generate_synthetic", "write_manifest", *CHAIN} <= planned(restored)
+
+
 def test_a_lost_shard_is_made_again_alone(smoke):
     folder = next((smoke[0] / "results/smoke/udf").rglob("status.csv")).parent
     kept = folder.rename(folder.with_name("kept"))

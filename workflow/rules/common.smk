@@ -82,13 +82,17 @@ def evaluated_shards(pattern, surface):
 
 
 def dataset_source(wildcards):
-    """Return the folder of the data set if it is there or a rule makes it; else the manifest job says what to fetch."""
-    made = CONFIG.dataset.kind == "synthetic" or getattr(CONFIG.dataset, "url", None)
-    return (
-        [ancient(section("dataset", "root"))]
-        if made or CONFIG.dataset.root.exists()
-        else []
-    )
+    """Return the folder of the data set, if there is one; else the manifest job says what to fetch.
+
+    A folder that a rule makes is made anew when its code or settings change, and the manifest after it. A folder of
+    the user's is looked at for its number of shapes only: its time changes with every file put beside them.
+    """
+    root = section("dataset", "root")
+    if CONFIG.dataset.kind == "synthetic":
+        return [root]
+    if CONFIG.dataset.root.exists() or getattr(CONFIG.dataset, "url", None):
+        return [ancient(root)]
+    return []
 
 
 def of_every_surface(kind):
