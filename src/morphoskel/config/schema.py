@@ -182,7 +182,7 @@ class Config(Section):
         description="failed shapes tolerated under each surface reconstruction"
     )
     keep_intermediates: bool = Field(
-        description="keep occupancy, UDF and dilation: 5 MB a shape and million inner points, and a change of "
+        description="keep occupancy, UDF and dilation: 8 bytes an inner point and a bit a candidate; a change of "
         "skeleton.k then reruns the dilation alone; false deletes them as soon as the skeleton is made"
     )
     dataset: Dataset
