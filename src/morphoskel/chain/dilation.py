@@ -6,12 +6,12 @@ from morphoskel.chain.inner import read_inner_points
 from morphoskel.chain.task import Details, Task
 from morphoskel.morphology import dilation
 
-HEAVY_IMPORTS = ("scipy.spatial",)
+HEAVY_IMPORTS = ("morphoskel.volume.candidate_kernels", "morphoskel.morphology.neighbour_kernels")
 
 
 def run(task: Task) -> Details:
     """Dilate the UDF over the k-nearest-neighbour structuring element and write it as float32."""
     udf = np.load(task.read("udf", ".npy"))
-    dilated = dilation(read_inner_points(task), udf, task.settings["k"])
+    dilated = dilation(read_inner_points(task), udf, task.settings["k"], threads=task.threads)
     np.save(task.write(".npy"), dilated)
     return {"local_maxima": int((dilated == udf).sum())}

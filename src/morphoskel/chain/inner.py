@@ -1,10 +1,26 @@
-"""Draw again the candidates that a shape's bit mask marks as inside."""
+"""Store which candidates lie inside, and make them again from that."""
+
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from morphoskel.chain.task import Task
-from morphoskel.volume import Candidates, inner_points
+from morphoskel.volume import Candidates, Occupancy
+
+
+def write_occupancy(path: Path, occupancy: Occupancy) -> None:
+    """Write two bits a tile, a bit a candidate of the tiles that the surface crosses, and box and seed."""
+    states = occupancy.states
+    np.savez(
+        path,
+        states=np.packbits(np.stack([states & 1, states >> 1])),
+        crossed_mask=np.packbits(occupancy.crossed_mask),
+        crossed=len(occupancy.crossed_mask),
+        lower=occupancy.candidates.lower,
+        upper=occupancy.candidates.upper,
+        seed=np.uint64(occupancy.candidates.seed),
+    )
 
 
 def read_inner_points(task: Task) -> npt.NDArray[np.float32]:
@@ -13,5 +29,7 @@ def read_inner_points(task: Task) -> npt.NDArray[np.float32]:
         candidates = Candidates(
             stored["lower"], stored["upper"], **task.settings["candidates"], seed=int(stored["seed"])
         )
-        mask = np.unpackbits(stored["mask"], count=len(candidates)).astype(bool)
-    return inner_points(candidates, mask)
+        tiles = candidates.tiles_per_axis**3
+        low, high = np.unpackbits(stored["states"], count=2 * tiles).reshape(2, tiles)
+        crossed_mask = np.unpackbits(stored["crossed_mask"], count=int(stored["crossed"])).astype(bool)
+    return Occupancy(candidates, low | high << 1, crossed_mask).inner_points(threads=task.threads)

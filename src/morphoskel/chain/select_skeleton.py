@@ -7,6 +7,8 @@ from morphoskel.chain.task import Details, Task
 from morphoskel.formats import write_skeleton_ply
 from morphoskel.skeleton.selection import skeleton_of
 
+HEAVY_IMPORTS = ("morphoskel.volume.candidate_kernels",)
+
 
 def run(task: Task) -> Details:
     """Select the inner points of smallest residue and write them as a skeleton."""

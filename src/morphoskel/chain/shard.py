@@ -11,6 +11,7 @@ from typing import Any
 from morphoskel.atomic import atomic_folder
 from morphoskel.chain.status import Status, read_status, write_status
 from morphoskel.chain.task import Details, Task
+from morphoskel.cores import split_cores
 from morphoskel.datasets.manifest import ShapeRecord, read_manifest
 from morphoskel.pool import Outcome, run_isolated
 from morphoskel.seeds import derive_seed
@@ -28,7 +29,8 @@ def run_shard(
     output: Path,
     settings: Mapping[str, Any],
     seed: int,
-    workers: int,
+    cores: int,
+    threads: int = 1,
 ) -> list[Status]:
     """Run `stage` on the shapes of a shard, side by side, and write one file a shape and ``status.csv``.
 
@@ -52,8 +54,10 @@ def run_shard(
         Configuration sections of the stage.
     seed
         The global seed.
-    workers
-        Shapes run side by side.
+    cores
+        Cores of the job.
+    threads
+        Threads for each shape, see :func:`morphoskel.cores.split_cores`.
 
     Returns
     -------
@@ -65,12 +69,12 @@ def run_shard(
     module = importlib.import_module(f"morphoskel.chain.{stage}")
     preload = [module.__name__, *getattr(module, "HEAVY_IMPORTS", ())]
     with atomic_folder(output) as folder:
+        waiting = [record for record in records.values() if record.id not in rows]
+        workers, threads = split_cores(cores, threads, len(waiting))
         tasks = {
-            record.id: Task(record, inputs, folder, settings, derive_seed(seed, record.id, stage))
-            for record in records.values()
-            if record.id not in rows
+            record.id: Task(record, inputs, folder, settings, derive_seed(seed, record.id, stage), threads)
+            for record in waiting
         }
-        workers = max(min(workers, len(tasks)), 1)
         for outcome in run_isolated(module.run, tasks, workers=workers, preload=preload):
             rows[outcome.key] = _status(records[outcome.key], stage, outcome)
             logger.info("%d/%d %s", len(rows), len(records), _describe(rows[outcome.key]))

@@ -24,6 +24,8 @@ class Task:
         The configuration sections of the stage.
     seed
         Derived from the global seed, the shape's id and the stage.
+    threads
+        Threads that the stage may use for this shape.
     """
 
     record: ShapeRecord
@@ -31,6 +33,7 @@ class Task:
     output: Path
     settings: Mapping[str, Any]
     seed: int
+    threads: int = 1
 
     def read(self, stage: str, suffix: str) -> Path:
         """Return the file that `stage` wrote for this shape."""

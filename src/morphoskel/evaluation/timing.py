@@ -19,7 +19,7 @@ from morphoskel.shapes import PointCloud
 from morphoskel.skeleton.selection import skeleton_of
 from morphoskel.stages import STAGES
 from morphoskel.surface import reconstruct, watertight
-from morphoskel.volume import Candidates, SurfaceQuery, inner_points, occupancy
+from morphoskel.volume import Candidates, SurfaceDistance, occupancy
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -104,10 +104,9 @@ def _time_shape(
             closed = watertight(mesh, seed=derive_seed(seed, record.id, "watertight"), **sections["watertight"])
         box = Candidates(*closed.bounds, **settings["candidates"], seed=derive_seed(seed, record.id, "occupancy"))
         with _clock(seconds, "occupancy"):
-            query = SurfaceQuery(closed, threads=threads)
-            inner = inner_points(box, occupancy(query, box))
+            inner = occupancy(closed, box, threads=threads).inner_points(threads=threads)
         with _clock(seconds, "udf"):
-            udf = query.udf(inner)
+            udf = SurfaceDistance(closed)(inner, threads=threads)
         with _clock(seconds, "dilation"):
             dilated = dilation(inner, udf, settings["k"], threads=threads)
         with _clock(seconds, "select_skeleton"):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from morphoskel.morphology import dilation
 from morphoskel.shapes import Mesh, Skeleton
 from morphoskel.skeleton.selection import skeleton_of
-from morphoskel.volume import Candidates, SurfaceQuery, inner_points, occupancy
+from morphoskel.volume import Candidates, SurfaceDistance, occupancy
 
 
 def ms3d(mesh: Mesh, candidates: Candidates, *, k: int = 20, points: int = 1024, threads: int = 1) -> Skeleton:
@@ -22,7 +22,7 @@ def ms3d(mesh: Mesh, candidates: Candidates, *, k: int = 20, points: int = 1024,
     points
         Maximal balls kept; fewer if fewer candidates lie inside.
     threads
-        Native threads.
+        Threads of each stage. Does not change the result.
 
     Returns
     -------
@@ -32,9 +32,8 @@ def ms3d(mesh: Mesh, candidates: Candidates, *, k: int = 20, points: int = 1024,
     Raises
     ------
     ShapeError
-        If no candidate lies inside.
+        If the surface is not closed, or no candidate lies inside.
     """
-    query = SurfaceQuery(mesh, threads=threads)
-    inner = inner_points(candidates, occupancy(query, candidates))
-    udf = query.udf(inner)
+    inner = occupancy(mesh, candidates, threads=threads).inner_points(threads=threads)
+    udf = SurfaceDistance(mesh)(inner, threads=threads)
     return skeleton_of(inner, udf, dilation(inner, udf, k, threads=threads), points)

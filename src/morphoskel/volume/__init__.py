@@ -1,7 +1,7 @@
 """Points in the volume: candidates, the inside test and the distance to the surface."""
 
 from morphoskel.volume.candidates import Candidates
-from morphoskel.volume.occupancy import inner_points, occupancy
-from morphoskel.volume.surface_query import SurfaceQuery
+from morphoskel.volume.distance import SurfaceDistance
+from morphoskel.volume.occupancy import Occupancy, occupancy
 
-__all__ = ["Candidates", "SurfaceQuery", "inner_points", "occupancy"]
+__all__ = ["Candidates", "Occupancy", "SurfaceDistance", "occupancy"]

@@ -1,27 +1,34 @@
 """Candidate centres of maximal balls: points scattered in the bounding box (paper, section on occupancy).
 
-Candidates are never stored. They are a pure function of box, count, mode and seed, and they come in spatial
-order, tile after tile along a Morton curve: neighbours in space are neighbours in memory, which by itself makes the
-distance and neighbour queries that follow two to three times faster.
+Candidates are never stored. They are a pure function of box, count, mode and seed, made tile by tile, so that tiles
+which lie outside the shape need not be made at all: what is left is the same as if all had been made and those
+outside thrown away. Tiles come along a Morton curve: neighbours in space are neighbours in memory, which makes the
+queries that follow several times faster.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from morphoskel.errors import InputError
-from morphoskel.shapes import FloatArray
+from morphoskel.shapes import FloatArray, IntArray
 
-TILE_POINTS = 1024
-"""Candidates a tile, about; small enough for a tile to stay in cache, large enough to amortise its generator."""
+TILE_POINTS = 64
+"""Candidates a tile, about: few, so that the tiles that a surface crosses hold a small part of all candidates."""
 
-CHUNK_POINTS = 1 << 18
-"""Candidates handed out at once; bounds memory (3 MB a chunk)."""
+TILE_SIDE = 4
+"""Grid nodes a tile and axis."""
+
+CHUNK_TILES = 1 << 12
+"""Tiles handed out at once; bounds memory (3 MB a chunk)."""
+
+Points = npt.NDArray[np.float32]
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,54 +73,69 @@ class Candidates:
         return int(self.count ** (1 / 3) + 1e-9)
 
     def __len__(self) -> int:
-        """Return the number of points that :meth:`chunks` yields in all."""
+        """Return the number of points in all tiles."""
         return self.count if self.mode == "random" else self.nodes_per_axis**3
 
-    def chunks(self) -> Iterator[npt.NDArray[np.float32]]:
-        """Yield the points in spatial order, as ``(n, 3)`` float32 arrays of about `CHUNK_POINTS` rows."""
-        pending: list[npt.NDArray[np.float32]] = []
-        size = 0
-        for tile in self._random_tiles() if self.mode == "random" else self._grid_tiles():
-            pending.append(tile)
-            size += len(tile)
-            if size >= CHUNK_POINTS:
-                yield np.concatenate(pending)
-                pending, size = [], 0
-        if pending:
-            yield np.concatenate(pending)
+    @property
+    def tiles_per_axis(self) -> int:
+        """Tiles along each axis of the box."""
+        if self.mode == "grid":
+            return -(-self.nodes_per_axis // TILE_SIDE)
+        return max(round((self.count / TILE_POINTS) ** (1 / 3)), 1)
 
-    def _random_tiles(self) -> Iterator[npt.NDArray[np.float32]]:
-        """Draw how many points fall into each tile, then place them: the same law as drawing them one by one.
+    @cached_property
+    def cells(self) -> npt.NDArray[np.int32]:
+        """Place of each tile among its like along the axes, ``(tiles, 3)``, in the order of the tiles."""
+        from morphoskel.volume.candidate_kernels import morton_cells
 
-        The counts of independent uniform points in equal cells are multinomial, and given its count the points of
-        a cell are independent and uniform in it. Each tile has a counter-based stream of its own.
+        cells: npt.NDArray[np.int32] = morton_cells(self.tiles_per_axis)
+        return cells
+
+    @cached_property
+    def edges(self) -> FloatArray:
+        """Coordinates between which the tiles lie, ``(3, tiles_per_axis + 1)``."""
+        corners = zip(self.lower, self.upper, strict=True)
+        if self.mode == "random":
+            return np.array([np.linspace(low, high, self.tiles_per_axis + 1) for low, high in corners])
+        axes = self._axes.astype(np.float64)
+        last = np.arange(TILE_SIDE - 1, self.nodes_per_axis - 1, TILE_SIDE)
+        inner = (axes[:, last] + axes[:, last + 1]) / 2
+        return np.column_stack([self.lower, inner, self.upper])
+
+    @cached_property
+    def counts(self) -> IntArray:
+        """Points in each tile, ``(tiles,)`` int64.
+
+        In random mode the counts of independent uniform points in equal cells, which are multinomial; given its
+        count, the points of a cell are independent and uniform in it. So points made tile by tile have the same law
+        as points drawn one by one.
         """
-        tiles = max(round((self.count / TILE_POINTS) ** (1 / 3)), 1)
-        counts = np.random.Generator(np.random.Philox(key=[self.seed, 0])).multinomial(
-            self.count, np.full(tiles**3, tiles**-3.0)
-        )
-        size = (self.upper - self.lower) / tiles
-        for number, (cell, count) in enumerate(zip(_morton_cells(tiles), counts, strict=True), start=1):
-            if count:
-                stream = np.random.Generator(np.random.Philox(key=[self.seed, number]))
-                yield (self.lower + (cell + stream.random((count, 3))) * size).astype(np.float32)
+        if self.mode == "grid":
+            return np.minimum(self.nodes_per_axis - self.cells * TILE_SIDE, TILE_SIDE).prod(axis=1, dtype=np.int64)
+        stream = np.random.Generator(np.random.Philox(key=[self.seed, 0]))
+        return stream.multinomial(self.count, np.full(len(self.cells), 1 / len(self.cells)))
 
-    def _grid_tiles(self) -> Iterator[npt.NDArray[np.float32]]:
-        axes = [np.linspace(low, high, self.nodes_per_axis) for low, high in zip(self.lower, self.upper, strict=True)]
-        side = round(TILE_POINTS ** (1 / 3))
-        for cell in _morton_cells(-(-self.nodes_per_axis // side)):
-            parts = [
-                axis[start * side : (start + 1) * side] for axis, start in zip(axes, cell.astype(int), strict=True)
-            ]
-            yield np.stack(np.meshgrid(*parts, indexing="ij"), axis=-1).reshape(-1, 3).astype(np.float32)
+    def points(self, tiles: IntArray) -> Points:
+        """Return the points of some tiles, ``(n, 3)`` float32, tile after tile."""
+        from morphoskel.volume import candidate_kernels as kernels
 
+        offsets = np.concatenate([[0], np.cumsum(self.counts[tiles])])
+        points = np.empty((offsets[-1], 3), dtype=np.float32)
+        if self.mode == "random":
+            size = (self.upper - self.lower) / self.tiles_per_axis
+            kernels.place_random(self.cells, tiles, offsets, self.seed, self.lower, size, 0, len(tiles), points)
+        else:
+            kernels.place_nodes(self.cells, tiles, offsets, self._axes, TILE_SIDE, 0, len(tiles), points)
+        return points
 
-def _morton_cells(cells_per_axis: int) -> FloatArray:
-    """Return the integer coordinates ``(cells_per_axis ** 3, 3)`` of all cells, along a Morton curve."""
-    axis = np.arange(cells_per_axis, dtype=np.int64)
-    cells = np.stack(np.meshgrid(axis, axis, axis, indexing="ij"), axis=-1).reshape(-1, 3)
-    code = np.zeros(len(cells), dtype=np.int64)
-    for bit in range(int(cells_per_axis).bit_length()):
-        for dimension in range(3):
-            code |= ((cells[:, dimension] >> bit) & 1) << (3 * bit + dimension)
-    return cells[np.argsort(code)].astype(np.float64)
+    def chunks(self) -> Iterator[Points]:
+        """Yield all points in order, as arrays of the points of `CHUNK_TILES` tiles."""
+        for start in range(0, len(self.cells), CHUNK_TILES):
+            yield self.points(np.arange(start, min(start + CHUNK_TILES, len(self.cells))))
+
+    @cached_property
+    def _axes(self) -> Points:
+        """Grid mode: coordinates of the nodes along each axis, ``(3, nodes_per_axis)``."""
+        corners = zip(self.lower, self.upper, strict=True)
+        axes = [np.linspace(low, high, self.nodes_per_axis) for low, high in corners]
+        return np.array(axes).astype(np.float32)
