@@ -4,7 +4,7 @@ from scipy import stats
 
 from morphoskel.errors import InputError
 from morphoskel.volume import Candidates
-from morphoskel.volume.candidates import CHUNK_POINTS
+from morphoskel.volume.candidates import CHUNK_TILES, TILE_POINTS
 
 LOWER, UPPER = np.array([-1.0, 2.0, 0.0]), np.array([3.0, 2.5, 1.0])
 
@@ -20,6 +20,46 @@ def test_random_mode_gives_exactly_the_count_inside_the_box(count):
     assert points.dtype == np.float32
     assert (points >= LOWER - 1e-6).all()
     assert (points <= UPPER + 1e-6).all()
+
+
+@pytest.mark.parametrize("seed", [0, 5, 2**63 - 1])
+def test_random_mode_equals_its_naive_twin(seed):
+    """NumPy's own generators, one a tile."""
+    candidates = Candidates(LOWER, UPPER, 20_000, seed=seed)
+    size = (UPPER - LOWER) / candidates.tiles_per_axis
+    streams = (np.random.Generator(np.random.Philox(key=[seed, tile + 1])) for tile in range(len(candidates.cells)))
+    tiles = zip(candidates.cells, candidates.counts, streams, strict=True)
+    naive = [(LOWER + (cell + stream.random((count, 3))) * size).astype(np.float32) for cell, count, stream in tiles]
+    assert np.array_equal(np.concatenate(list(candidates.chunks())), np.concatenate(naive))
+
+
+@pytest.mark.parametrize("mode", ["random", "grid"])
+def test_points_of_a_tile_do_not_depend_on_the_others(mode):
+    candidates = Candidates(LOWER, UPPER, 20_000, mode, seed=7)
+    everything, offsets = np.concatenate(list(candidates.chunks())), np.cumsum([0, *candidates.counts])
+    for tile in (0, 3, len(candidates.cells) - 1):
+        assert np.array_equal(candidates.points(np.array([tile])), everything[offsets[tile] : offsets[tile + 1]])
+
+
+@pytest.mark.parametrize("mode", ["random", "grid"])
+def test_points_lie_in_their_tiles(mode):
+    candidates = Candidates(LOWER, UPPER, 20_000, mode, seed=7)
+    tile = np.repeat(np.arange(len(candidates.cells)), candidates.counts)
+    points = np.concatenate(list(candidates.chunks()))
+    for axis in range(3):
+        cell = candidates.cells[tile, axis]
+        assert (points[:, axis] >= candidates.edges[axis, cell] - 1e-6).all()
+        assert (points[:, axis] <= candidates.edges[axis, cell + 1] + 1e-6).all()
+
+
+@pytest.mark.parametrize("per_axis", [1, 2, 5, 8])
+def test_tiles_follow_a_morton_curve(per_axis):
+    def code(cell):
+        return sum(((int(cell[axis]) >> bit) & 1) << (3 * bit + axis) for bit in range(8) for axis in range(3))
+
+    candidates = Candidates(LOWER, UPPER, (4 * per_axis) ** 3, "grid")
+    cells = sorted(np.ndindex(per_axis, per_axis, per_axis), key=code)
+    assert candidates.cells.tolist() == [list(cell) for cell in cells]
 
 
 def test_random_mode_is_uniform():
@@ -68,7 +108,7 @@ def test_neighbours_in_memory_are_neighbours_in_space(mode):
 def test_chunks_bound_memory():
     sizes = [len(chunk) for chunk in Candidates(LOWER, UPPER, 1_000_000, seed=1).chunks()]
     assert sum(sizes) == 1_000_000
-    assert max(sizes) < CHUNK_POINTS * 1.1
+    assert max(sizes) < CHUNK_TILES * TILE_POINTS * 1.2
 
 
 @pytest.mark.parametrize("upper", [[3.0, 2.0, 1.0], [-2.0, 2.5, 1.0]])

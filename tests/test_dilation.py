@@ -7,7 +7,6 @@ from solids import random_rotation
 
 from morphoskel.errors import InputError
 from morphoskel.morphology import dilation
-from morphoskel.morphology.dilation import CHUNK_POINTS
 
 
 def cloud(count, seed=0):
@@ -48,12 +47,14 @@ def test_k_of_one_is_the_identity_and_k_of_all_is_the_maximum():
     assert (dilation(points, values, 500) == values.max()).all()
 
 
-def test_agrees_with_open3d_on_more_than_one_chunk():
-    points, values = cloud(CHUNK_POINTS + 1234)
-    search = open3d.core.nns.NearestNeighborSearch(open3d.core.Tensor(points.astype(np.float64)))
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_agrees_with_open3d_on_many_points(dtype):
+    """In float32, as in the published program, two neighbours may be equally far to the last bit."""
+    points, values = cloud(70_000)
+    search = open3d.core.nns.NearestNeighborSearch(open3d.core.Tensor(points.astype(dtype)))
     search.knn_index()
-    neighbours, _ = search.knn_search(open3d.core.Tensor(points.astype(np.float64)), 20)
-    assert np.array_equal(dilation(points, values, 20), values[neighbours.numpy()].max(axis=1))
+    neighbours, _ = search.knn_search(open3d.core.Tensor(points.astype(dtype)), 20)
+    assert (dilation(points, values, 20) != values[neighbours.numpy()].max(axis=1)).sum() <= 3
 
 
 def test_order_motion_and_threads_do_not_matter():
@@ -66,10 +67,11 @@ def test_order_motion_and_threads_do_not_matter():
     assert (dilation(moved, values) != dilated).mean() < 0.001  # rounding can swap two almost equally far neighbours
 
 
-def test_coincident_points_keep_their_own_value():
+def test_coincident_points_share_the_largest_value():
+    """All are equally far, so all belong to the structuring element, however small `k` is."""
     points = np.zeros((40, 3), dtype=np.float32)
     values = np.arange(40, dtype=np.float32)
-    assert (dilation(points, values, 3) >= values).all()
+    assert (dilation(points, values, 3) == 39).all()
 
 
 def test_nothing_to_dilate():
@@ -78,5 +80,5 @@ def test_nothing_to_dilate():
 
 @pytest.mark.parametrize(("values", "k"), [(np.zeros(4), 3), (np.zeros(5), 0)])
 def test_illegal_arguments(values, k):
-    with pytest.raises(InputError, match="dilation"):
+    with pytest.raises(InputError, match="structuring element"):
         dilation(np.zeros((5, 3), dtype=np.float32), values.astype(np.float32), k)

@@ -38,16 +38,14 @@ def edit(path: Path, old: str, new: str):
 def test_a_docstring_and_a_comment_change_nothing(package):
     before = digest("chain.dilation")
     edit(package / "morphology" / "dilation.py", '"""Return the largest value', '"""Give the largest value')
-    edit(
-        package / "morphology" / "dilation.py", "    dilated = values.copy()", "    # why\n    dilated = values.copy()"
-    )
+    edit(package / "morphology" / "dilation.py", "    from morphoskel", "    # why\n    from morphoskel")
     assert digest("chain.dilation") == before
 
 
 def test_an_imported_function_changes_what_runs_it(package):
     stages = ["chain.dilation", "chain.reconstruct", "chain.watertight", "chain.select_skeleton"]
     before = {stage: digest(stage) for stage in stages}
-    edit(package / "morphology" / "dilation.py", "element.max(axis=1)", "element.min(axis=1)")
+    edit(package / "morphology" / "dilation.py", "threads=threads", "threads=1")
     changed = {stage for stage in stages if digest(stage) != before[stage]}
     assert changed == {"chain.dilation"}
 

@@ -69,7 +69,7 @@ def run_chain(folder, sections, shard_size, workers):
                 output=folder / stage / str(shard),
                 settings=settings_of(stage, sections),
                 seed=SEED,
-                workers=workers,
+                cores=workers,
             )
     return {
         path.name: hashlib.sha256(path.read_bytes()).hexdigest()

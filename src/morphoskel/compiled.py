@@ -6,13 +6,10 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeVar
 
-import numba
-
-Function = TypeVar("Function", bound=Callable[..., Any])
 Result = TypeVar("Result")
 
 
-def kernel(function: Function) -> Function:
+def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     """Compile a function to machine code, once for all processes that follow: the code is cached on disk.
 
     A kernel runs without the interpreter's lock, so several threads can run it at once on blocks of the same arrays.
@@ -22,7 +19,9 @@ def kernel(function: Function) -> Function:
     A cached kernel is compiled anew when its own file changes, but not when a kernel that it calls from another file
     does; therefore kernels call only kernels of their own file.
     """
-    compiled: Function = numba.njit(cache=True, nogil=True, error_model="numpy")(function)
+    import numba
+
+    compiled: Callable[..., Any] = numba.njit(cache=True, nogil=True, error_model="numpy")(function)
     return compiled
 
 

@@ -12,10 +12,11 @@ rule reconstruct:
         "<benchmarks>/reconstruct/{dataset}/{split}/{surface}/{shard}.tsv"
     conda:
         "../../environment.yml"
-    threads: CONFIG.workers
+    threads: CONFIG.cores
     resources:
         mem_mb=memory,
         runtime=minutes,
+        shape_threads=CONFIG.threads,
     params:
         dataset=section("dataset"),
         dataset_seed=CONFIG.seed,
@@ -39,10 +40,11 @@ rule watertight:
         "<benchmarks>/watertight/{dataset}/{split}/{surface}/{shard}.tsv"
     conda:
         "../../environment.yml"
-    threads: CONFIG.workers
+    threads: CONFIG.cores
     resources:
         mem_mb=memory,
         runtime=minutes,
+        shape_threads=CONFIG.threads,
     params:
         watertight=section("watertight"),
         seed=CONFIG.seed,
@@ -63,10 +65,11 @@ rule occupancy:
         "<benchmarks>/occupancy/{dataset}/{split}/{surface}/{shard}.tsv"
     conda:
         "../../environment.yml"
-    threads: CONFIG.workers
+    threads: CONFIG.cores
     resources:
         mem_mb=memory,
         runtime=minutes,
+        shape_threads=CONFIG.threads,
     params:
         candidates=section("skeleton", "candidates"),
         seed=CONFIG.seed,
@@ -88,10 +91,11 @@ rule udf:
         "<benchmarks>/udf/{dataset}/{split}/{surface}/{shard}.tsv"
     conda:
         "../../environment.yml"
-    threads: CONFIG.workers
+    threads: CONFIG.cores
     resources:
         mem_mb=memory,
         runtime=minutes,
+        shape_threads=CONFIG.threads,
     params:
         candidates=section("skeleton", "candidates"),
         seed=CONFIG.seed,
@@ -113,10 +117,11 @@ rule dilation:
         "<benchmarks>/dilation/{dataset}/{split}/{surface}/{shard}.tsv"
     conda:
         "../../environment.yml"
-    threads: CONFIG.workers
+    threads: CONFIG.cores
     resources:
         mem_mb=memory,
         runtime=minutes,
+        shape_threads=CONFIG.threads,
     params:
         candidates=section("skeleton", "candidates"),
         k=CONFIG.skeleton.k,
@@ -140,10 +145,11 @@ rule select_skeleton:
         "<benchmarks>/select_skeleton/{dataset}/{split}/{surface}/{shard}.tsv"
     conda:
         "../../environment.yml"
-    threads: CONFIG.workers
+    threads: CONFIG.cores
     resources:
         mem_mb=memory,
         runtime=minutes,
+        shape_threads=CONFIG.threads,
     params:
         candidates=section("skeleton", "candidates"),
         points=CONFIG.skeleton.points,

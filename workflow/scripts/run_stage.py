@@ -17,5 +17,6 @@ run_shard(
     output=Path(snakemake.output[0]),
     settings=settings,
     seed=snakemake.params.seed,
-    workers=snakemake.threads,
+    cores=snakemake.threads,
+    threads=snakemake.resources.shape_threads,
 )

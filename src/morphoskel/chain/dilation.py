@@ -6,7 +6,12 @@ from morphoskel.chain.inner import read_inner_points
 from morphoskel.chain.task import Details, Task
 from morphoskel.morphology import dilation
 
-HEAVY_IMPORTS = ("morphoskel.volume.candidate_kernels", "morphoskel.morphology.neighbour_kernels")
+HEAVY_IMPORTS = (
+    "morphoskel.chain.compiler",
+    "morphoskel.volume.candidate_kernels",
+    "morphoskel.morphology.cell_kernels",
+    "morphoskel.morphology.neighbour_kernels",
+)
 
 
 def run(task: Task) -> Details:

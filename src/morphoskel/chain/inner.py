@@ -32,4 +32,5 @@ def read_inner_points(task: Task) -> npt.NDArray[np.float32]:
         tiles = candidates.tiles_per_axis**3
         low, high = np.unpackbits(stored["states"], count=2 * tiles).reshape(2, tiles)
         crossed_mask = np.unpackbits(stored["crossed_mask"], count=int(stored["crossed"])).astype(bool)
-    return Occupancy(candidates, low | high << 1, crossed_mask).inner_points(threads=task.threads)
+    states = (low | high << 1).astype(np.uint8)
+    return Occupancy(candidates, states, crossed_mask).inner_points(threads=task.threads)

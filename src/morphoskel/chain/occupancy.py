@@ -5,7 +5,11 @@ from morphoskel.chain.task import Details, Task
 from morphoskel.formats.read_mesh import read_mesh
 from morphoskel.volume import Candidates, occupancy
 
-HEAVY_IMPORTS = ("morphoskel.volume.candidate_kernels", "morphoskel.volume.occupancy_kernels")
+HEAVY_IMPORTS = (
+    "morphoskel.chain.compiler",
+    "morphoskel.volume.candidate_kernels",
+    "morphoskel.volume.occupancy_kernels",
+)
 
 
 def run(task: Task) -> Details:

@@ -7,7 +7,10 @@ from morphoskel.chain.task import Details, Task
 from morphoskel.formats import write_skeleton_ply
 from morphoskel.skeleton.selection import skeleton_of
 
-HEAVY_IMPORTS = ("morphoskel.volume.candidate_kernels",)
+HEAVY_IMPORTS = (
+    "morphoskel.chain.compiler",
+    "morphoskel.volume.candidate_kernels",
+)
 
 
 def run(task: Task) -> Details:

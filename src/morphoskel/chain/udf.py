@@ -7,7 +7,12 @@ from morphoskel.chain.task import Details, Task
 from morphoskel.formats.read_mesh import read_mesh
 from morphoskel.volume import SurfaceDistance
 
-HEAVY_IMPORTS = ("morphoskel.volume.candidate_kernels", "morphoskel.volume.distance_kernels")
+HEAVY_IMPORTS = (
+    "morphoskel.chain.compiler",
+    "morphoskel.volume.candidate_kernels",
+    "morphoskel.volume.triangle_tree_kernels",
+    "morphoskel.volume.distance_kernels",
+)
 
 
 def run(task: Task) -> Details:

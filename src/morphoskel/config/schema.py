@@ -177,7 +177,11 @@ class Config(Section):
         description="correct: sound means; released: the published script's two averaging slips"
     )
     shard_size: PositiveInt = Field(description="shapes a job; does not change results")
-    workers: PositiveInt = Field(description="shapes processed side by side in a job, at most the cores given")
+    cores: PositiveInt = Field(description="cores of a job of the per-shape chain; does not change results")
+    threads: PositiveInt = Field(
+        description="cores that one shape gets; a job works on cores / threads shapes side by side, "
+        "on fewer with more threads where there are fewer; does not change results"
+    )
     max_failed: Annotated[int, Field(ge=0)] = Field(
         description="failed shapes tolerated under each surface reconstruction"
     )

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from morphoskel.compiled import run_blocks
 from morphoskel.errors import InputError
-from morphoskel.morphology import neighbour_kernels as kernels
+from morphoskel.morphology import cell_kernels, neighbour_kernels
 from morphoskel.shapes import FloatArray, IntArray
 
 POINTS_A_CELL = 8
@@ -63,14 +63,14 @@ class StructuringElement:
         if len(points) == 0:
             return
         points = np.ascontiguousarray(points, dtype=np.float32)
-        self._lower, upper = kernels.bounds(points)
+        self._lower, upper = cell_kernels.bounds(points)
         if not np.isfinite([self._lower, upper]).all():
             raise InputError("structuring element: a point has a NaN or infinite coordinate; remove it")
         self._side, self._cells, self._starts, numbers = self._choose_cells(points, upper - self._lower)
-        self._order = kernels.sort_into_cells(numbers, self._starts)
+        self._order = cell_kernels.sort_into_cells(numbers, self._starts)
         self._points = np.empty((3, len(points)), dtype=np.float32)
         run_blocks(
-            partial(kernels.take, points, self._order, self._points),
+            partial(cell_kernels.take, points, self._order, self._points),
             len(points),
             block=BLOCK_POINTS,
             threads=threads,
@@ -98,7 +98,7 @@ class StructuringElement:
 
         def spread_block(start: int, stop: int) -> npt.NDArray[np.int32]:
             spread = keys.copy()
-            kernels.spread_over_cells(
+            neighbour_kernels.spread_over_cells(
                 self._points, keys, self._radii, self._starts, self._cells, self._side, start, stop, spread
             )
             return spread
@@ -116,9 +116,9 @@ class StructuringElement:
     def _search(self, values: Values, radii: npt.NDArray[np.int32]) -> Values:
         keys = self._sorted_keys(values)
         dilated = np.empty_like(keys)
-        growth = kernels.growth_table()
+        growth = neighbour_kernels.growth_table()
         run_blocks(
-            lambda first, last: kernels.dilate_cells(
+            lambda first, last: neighbour_kernels.dilate_cells(
                 self._points, keys, self._starts, self._cells, self._lower, self._side, self.k, growth, first, last,
                 dilated, radii,
             ),
@@ -152,21 +152,22 @@ class StructuringElement:
         side, cells, starts, numbers
             Side and number of the cells along the axes; position of the first point of each cell; cell of each point.
         """
-        thickness = np.maximum(extent, extent.max() * 1e-3 + np.finfo(np.float32).tiny)
-        side = float((thickness.prod() * 4 * POINTS_A_CELL / len(points)) ** (1 / 3))
+        thickness = np.maximum(extent, extent.max() * 1e-3)
+        side = float((thickness.prod() * 4 * POINTS_A_CELL / len(points)) ** (1 / 3)) or 1.0  # all in one place
         numbers = np.empty(len(points), dtype=np.int32)
         while True:
             cells = np.maximum(np.ceil(extent / side), 1).astype(np.int64)
             run_blocks(
-                partial(kernels.cell_numbers, points, self._lower, side, cells, numbers),
+                partial(cell_kernels.cell_numbers, points, self._lower, side, cells, numbers),
                 len(points),
                 block=BLOCK_POINTS,
                 threads=self.threads,
             )
-            counts = kernels.count_points(numbers, int(np.prod(cells)))
+            counts = cell_kernels.count_points(numbers, int(np.prod(cells)))
             fullness = len(points) / int(np.count_nonzero(counts))
             smaller = side * (POINTS_A_CELL / fullness) ** (1 / 3)
-            if fullness <= LARGEST_CELL or np.prod(extent / smaller + 1) > CELLS_A_POINT * len(points) + 1000:
+            too_many = np.prod(extent / smaller + 1) > CELLS_A_POINT * len(points) + 1000
+            if fullness <= LARGEST_CELL or too_many or not extent.any():
                 return side, cells, np.cumsum(counts), numbers
             side = smaller
 

@@ -81,7 +81,7 @@ class Candidates:
         """Tiles along each axis of the box."""
         if self.mode == "grid":
             return -(-self.nodes_per_axis // TILE_SIDE)
-        return max(round((self.count / TILE_POINTS) ** (1 / 3)), 1)
+        return max(round(float((self.count / TILE_POINTS) ** (1 / 3))), 1)
 
     @cached_property
     def cells(self) -> npt.NDArray[np.int32]:
@@ -111,7 +111,9 @@ class Candidates:
         as points drawn one by one.
         """
         if self.mode == "grid":
-            return np.minimum(self.nodes_per_axis - self.cells * TILE_SIDE, TILE_SIDE).prod(axis=1, dtype=np.int64)
+            nodes: IntArray = np.minimum(self.nodes_per_axis - self.cells * TILE_SIDE, TILE_SIDE).astype(np.int64)
+            counts: IntArray = nodes.prod(axis=1)
+            return counts
         stream = np.random.Generator(np.random.Philox(key=[self.seed, 0]))
         return stream.multinomial(self.count, np.full(len(self.cells), 1 / len(self.cells)))
 

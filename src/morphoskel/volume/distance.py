@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import numpy.typing as npt
 
 from morphoskel.compiled import run_blocks
 from morphoskel.shapes import Mesh
-from morphoskel.volume import distance_kernels as kernels
 
 TRIANGLES_A_LEAF = 4
 BLOCK_POINTS = 1 << 13
@@ -24,6 +25,8 @@ class SurfaceDistance:
     """
 
     def __init__(self, mesh: Mesh) -> None:
+        from morphoskel.volume import triangle_tree_kernels as kernels
+
         corners = mesh.vertices[mesh.triangles]
         self._depth = max(int(np.ceil(np.log2(len(corners) / TRIANGLES_A_LEAF))), 0)
         self._nodes = np.zeros((2 ** (self._depth + 1), kernels.NODE_NUMBERS), dtype=np.float32)
@@ -49,12 +52,12 @@ class SurfaceDistance:
             ``(N,)`` float32, in the mesh's unit. Exact but for the choice between triangles whose distances differ
             by less than about 1e-7 of the distance.
         """
+        from morphoskel.volume.distance_kernels import measure
+
         points = np.ascontiguousarray(points, dtype=np.float32)
         distances = np.empty(len(points), dtype=np.float32)
         run_blocks(
-            lambda start, stop: kernels.measure(
-                points, self._corners, self._nodes, self._frames, self._depth, start, stop, distances
-            ),
+            partial(measure, points, self._corners, self._nodes, self._frames, self._depth, distances),
             len(points),
             block=BLOCK_POINTS,
             threads=threads,

@@ -45,7 +45,7 @@ class Occupancy:
     def mask(self) -> npt.NDArray[np.bool_]:
         """Return which candidates lie inside, ``(len(candidates),)`` bool."""
         states = np.repeat(self.states, self.candidates.counts)
-        mask = states == INSIDE
+        mask: npt.NDArray[np.bool_] = states == INSIDE
         mask[states == CROSSED] = self.crossed_mask
         return mask
 
@@ -78,7 +78,7 @@ class Occupancy:
     def _mask_of(self, tiles: IntArray) -> npt.NDArray[np.bool_]:
         """Return which candidates of consecutive non-outside tiles lie inside."""
         states = np.repeat(self.states[tiles], self.candidates.counts[tiles])
-        mask = states == INSIDE
+        mask: npt.NDArray[np.bool_] = states == INSIDE
         mask[states == CROSSED] = self.crossed_mask[
             self._crossed_offsets[tiles[0]] : self._crossed_offsets[tiles[-1] + 1]
         ]
@@ -161,11 +161,11 @@ class _Lattice:
 
     def scale_to(self, coordinates: FloatArray) -> FloatArray:
         """Return ``(3, n)`` coordinates in lattice steps, not rounded."""
-        return (coordinates - self._origin[:, None]) * self._scale[:, None]
+        return np.ascontiguousarray((coordinates - self._origin[:, None]) * self._scale[:, None])
 
     def round(self, points: npt.NDArray[Any]) -> FloatArray:
         """Return ``(n, 3)`` points in whole lattice steps."""
-        return np.rint((points - self._origin) * self._scale)
+        return np.ascontiguousarray(np.rint((points - self._origin) * self._scale))
 
 
 def _triangles_of_tiles(corners: FloatArray, edges: FloatArray, margin: FloatArray) -> tuple[IntArray, IntArray]:

@@ -217,13 +217,12 @@ def test_points(points, offsets, cells, corners, edges, starts, triangles, direc
             if starts[row] == starts[row + 1]:
                 reference = centres_inside[place[0], place[1], place[2]] == 1
                 break
-            # The first tile takes what lies before it too, and the last one what lies behind: rounding may put it there.
-            low = -np.inf if place[axis] in (0, start) and (upward or place[axis] == 0) else edges[axis, place[axis]]
-            high = (
-                np.inf
-                if place[axis] in (n - 1, start) and (not upward or place[axis] == n - 1)
-                else edges[axis, place[axis] + 1]
-            )
+            low, high = edges[axis, place[axis]], edges[axis, place[axis] + 1]
+            # Rounding may put a point beside its own tile, and a crossing beyond the last tile.
+            if place[axis] == 0 or (place[axis] == start and upward):
+                low = -np.inf
+            if place[axis] == n - 1 or (place[axis] == start and not upward):
+                high = np.inf
             for position in range(starts[row], starts[row + 1]):
                 _flip_crossed(points, first, last, corners, triangles[position], axis, upward, low, high, inside)
             place[axis] += 1 if upward else -1
