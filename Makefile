@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 READY := $(VENV)/.ready
 
-.PHONY: all test lint unit format lock help clean
+.PHONY: all test lint unit bench format lock help clean
 
 all: $(READY) ## every table and figure on the embedded data set (results/demo)
 	@$(BIN)/morphoskel run
@@ -22,6 +22,9 @@ lint: $(READY) ## format, lint and type checks alone
 
 unit: $(READY) ## tests alone; `make unit ARGS="-k dilation"` picks some
 	$(BIN)/pytest $(ARGS)
+
+bench: $(READY) ## speed and memory beside the released computation; `make bench ARGS=scaling` picks one
+	$(BIN)/python -m benchmarks $(ARGS)
 
 format: $(READY) ## rewrite all code in the project's format
 	$(BIN)/ruff format .

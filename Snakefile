@@ -17,6 +17,15 @@ include: "workflow/rules/figures.smk"
 report: "workflow/report/workflow.rst"
 
 
+localrules:
+    skeletons,
+
+
+rule skeletons:
+    input:
+        all_skeletons(rules.select_skeleton.output[0]),
+
+
 rule all:
     default_target: True
     input:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import ast
 import hashlib
 import json
+import os
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
@@ -40,15 +41,63 @@ def code_digest(*modules: str) -> str:
     ModuleNotFoundError
         If there is no such module.
     """
-    reached: set[str] = set()
+    reached: dict[str, str] = {}
     waiting = [f"{PACKAGE}.{module}" for module in modules]
     while waiting:
         name = waiting.pop()
         if name not in reached:
-            reached.add(name)
-            waiting += _imports(name)
-    content = "\n".join(f"{name} {_tree_digest(name)}" for name in sorted(reached))
+            reached[name], imports = _facts(name)
+            waiting += imports
+    content = "\n".join(f"{name} {reached[name]}" for name in sorted(reached))
     return hashlib.sha256(content.encode()).hexdigest()[:12]
+
+
+def remember_digests(path: Path) -> None:
+    """Keep what :func:`code_digest` finds out about each source file in `path`, and use what is there already.
+
+    Parsing all of the package takes half a second, which a dry run need not spend when nothing has changed. Facts are
+    kept under a hash of the file and of the package's list of files, so they cannot be out of date.
+
+    Parameters
+    ----------
+    path
+        A JSON file, made if it is absent and made anew if it cannot be read.
+    """
+    global _memory
+    try:
+        facts = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        facts = {}
+    _memory = (path, facts if isinstance(facts, dict) else {})
+    _facts.cache_clear()
+
+
+_memory: tuple[Path, dict[str, Any]] | None = None
+
+
+@cache
+def _facts(name: str) -> tuple[str, list[str]]:
+    """Return the digest of a module's syntax tree, and the modules of this package that it imports."""
+    path = _find(name)
+    if _memory is None or path is None:
+        return _tree_digest(name), list(_imports(name))
+    file, remembered = _memory
+    key = hashlib.sha256(f"{name} {_file_list()} ".encode() + path.read_bytes()).hexdigest()
+    if key not in remembered:
+        remembered[key] = [_tree_digest(name), list(_imports(name))]
+        file.parent.mkdir(parents=True, exist_ok=True)
+        partial = file.with_name(f"{file.name}.{os.getpid()}.partial")  # several jobs may start at once
+        partial.write_text(json.dumps(remembered), encoding="utf-8")
+        partial.replace(file)
+    digest, imports = remembered[key]
+    return digest, imports
+
+
+@cache
+def _file_list() -> str:
+    """Return a hash of the names of the package's files: they decide which imported names are modules."""
+    names = sorted(str(path.relative_to(PACKAGE_FOLDER)) for path in PACKAGE_FOLDER.rglob("*.py"))
+    return hashlib.sha256("\n".join(names).encode()).hexdigest()
 
 
 def content_hash(values: Any) -> str:

@@ -4,10 +4,12 @@ from pathlib import Path
 
 from morphoskel.config import compose
 from morphoskel.datasets.configured import count_shapes
-from morphoskel.provenance import code_digest, content_hash
+from morphoskel.provenance import code_digest, content_hash, remember_digests
 
 # The scripts import the library from this clone, also inside an environment that Snakemake deploys.
 os.environ.update(PYTHONPATH=f"{workflow.basedir}/src")
+
+remember_digests(Path(".snakemake/code_digests.json"))
 
 CONFIG = compose(config.get("overrides", []), Path(workflow.basedir) / "config")
 SECTIONS = CONFIG.model_dump(mode="json")
@@ -51,14 +53,10 @@ def intermediate(folder):
     return directory(folder) if CONFIG.keep_intermediates else temp(directory(folder))
 
 
-def memory(wildcards, threads):
-    """Return MB for a job whose workers each hold the inner points of one shape (at most half the candidates)."""
-    return 600 + threads * (400 + CONFIG.skeleton.candidates.count * 60 // 1_000_000)
-
-
-def minutes(wildcards):
-    """Return an upper bound on the run time of a shard on one core."""
-    return 10 + CONFIG.shard_size * (2 + CONFIG.skeleton.candidates.count // 2_000_000)
+# MB for a job of the chain whose workers each hold the inner points of one shape, and an upper bound on its minutes.
+# Plain numbers: a function would be called anew for every job of a dry run.
+MEMORY = 600 + CONFIG.cores * (400 + CONFIG.skeleton.candidates.count * 60 // 1_000_000)
+MINUTES = 10 + CONFIG.shard_size * (1 + CONFIG.skeleton.candidates.count // 10_000_000)
 
 
 def skeleton_shards(wildcards):
@@ -79,6 +77,21 @@ def evaluated_shards(pattern, surface):
         surface=surface,
         shard=shards(CONFIG.evaluation.split),
     )
+
+
+def all_skeletons(pattern):
+    """Return the folders of every split and surface reconstruction."""
+    return [
+        folder
+        for split in SHAPES
+        for folder in expand(
+            pattern,
+            dataset=CONFIG.dataset.name,
+            split=split,
+            surface=CONFIG.surface.names,
+            shard=shards(split),
+        )
+    ]
 
 
 def dataset_source(wildcards):

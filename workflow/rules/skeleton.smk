@@ -14,8 +14,8 @@ rule reconstruct:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=memory,
-        runtime=minutes,
+        mem_mb=MEMORY,
+        runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
         dataset=section("dataset"),
@@ -42,8 +42,8 @@ rule watertight:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=memory,
-        runtime=minutes,
+        mem_mb=MEMORY,
+        runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
         watertight=section("watertight"),
@@ -67,8 +67,8 @@ rule occupancy:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=memory,
-        runtime=minutes,
+        mem_mb=MEMORY,
+        runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
         candidates=section("skeleton", "candidates"),
@@ -93,8 +93,8 @@ rule udf:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=memory,
-        runtime=minutes,
+        mem_mb=MEMORY,
+        runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
         candidates=section("skeleton", "candidates"),
@@ -119,8 +119,8 @@ rule dilation:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=memory,
-        runtime=minutes,
+        mem_mb=MEMORY,
+        runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
         candidates=section("skeleton", "candidates"),
@@ -147,8 +147,8 @@ rule select_skeleton:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=memory,
-        runtime=minutes,
+        mem_mb=MEMORY,
+        runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
         candidates=section("skeleton", "candidates"),

@@ -15,7 +15,7 @@ rule time_stages:
     # All cores, so that no other job disturbs the measurement.
     threads: workflow.cores or 1
     resources:
-        mem_mb=memory,
+        mem_mb=MEMORY,
         runtime=240,
     params:
         dataset=section("dataset"),
