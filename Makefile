@@ -37,6 +37,7 @@ $(READY): requirements.lock pyproject.toml
 	$(BIN)/pip install --disable-pip-version-check --quiet --requirement requirements.lock
 	$(BIN)/pip install --disable-pip-version-check --quiet --no-deps --no-build-isolation --editable .
 	$(BIN)/python -m morphoskel.system_libraries
+	$(BIN)/python -m morphoskel.precompile
 	@touch $(READY)
 
 lock: ## pin the newest versions that pyproject.toml admits, in requirements.lock and environment.yml

@@ -27,11 +27,12 @@ def released(surface: Path, mode: str, count: int, seed: int = SEED):
 
     mesh = read_mesh(surface)
     candidates = Candidates(*mesh.bounds, count, mode, seed)
-    points = np.concatenate(list(candidates.chunks()))
     if mode == "random":
-        np.random.default_rng(0).shuffle(points)
+        points = np.concatenate(list(candidates.chunks()))[np.random.default_rng(0).permutation(count)]
     else:
-        points = points[np.lexsort(points.T[::-1])]
+        corners = zip(candidates.lower, candidates.upper, strict=True)
+        axes = [np.linspace(low, high, candidates.nodes_per_axis) for low, high in corners]
+        points = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3).astype(np.float32)
     start = time.perf_counter()
     scene = open3d.t.geometry.RaycastingScene()
     scene.add_triangles(mesh.vertices.astype(np.float32), mesh.triangles.astype(np.uint32))

@@ -17,16 +17,26 @@ def package(tmp_path, monkeypatch):
 
 
 def digest(*modules):
-    for cached in (provenance._parse, provenance._tree_digest, provenance._imports):
-        cached.cache_clear()
+    forget()
     return code_digest(*modules)
+
+
+def forget():
+    for cached in (
+        provenance._parse,
+        provenance._tree_digest,
+        provenance._imports,
+        provenance._facts,
+        provenance._file_list,
+    ):
+        cached.cache_clear()
 
 
 @pytest.fixture(autouse=True)
 def _forget():
     yield
-    for cached in (provenance._parse, provenance._tree_digest, provenance._imports):
-        cached.cache_clear()
+    provenance._memory = None
+    forget()
 
 
 def edit(path: Path, old: str, new: str):
@@ -74,3 +84,33 @@ def test_an_unknown_module_is_an_error():
 def test_content_hash_ignores_the_order_of_keys():
     assert content_hash({"a": 1, "b": [2, {"c": None}]}) == content_hash({"b": [2, {"c": None}], "a": 1})
     assert content_hash({"a": 1}) != content_hash({"a": 2})
+
+
+def test_remembered_digests_are_the_same_and_follow_edits(package, tmp_path):
+    memory = tmp_path / "cache" / "digests.json"
+    fresh = digest("chain.dilation")
+    provenance.remember_digests(memory)
+    assert digest("chain.dilation") == fresh
+    provenance.remember_digests(memory)
+    assert digest("chain.dilation") == fresh
+    edit(package / "morphology" / "dilation.py", "threads=threads", "threads=1")
+    assert digest("chain.dilation") != fresh
+    assert list(memory.parent.glob("*.partial")) == []
+
+
+def test_unchanged_files_are_not_parsed_again(package, tmp_path, monkeypatch):
+    provenance.remember_digests(tmp_path / "digests.json")
+    fresh = digest("chain.dilation")
+    provenance.remember_digests(tmp_path / "digests.json")
+    forget()
+    monkeypatch.setattr(provenance, "_tree_digest", None)
+    assert code_digest("chain.dilation") == fresh
+    monkeypatch.undo()
+
+
+@pytest.mark.parametrize("content", ["{", "[]", ""])
+def test_a_damaged_memory_is_made_anew(package, tmp_path, content):
+    (tmp_path / "digests.json").write_text(content)
+    fresh = digest("chain.dilation")
+    provenance.remember_digests(tmp_path / "digests.json")
+    assert digest("chain.dilation") == fresh

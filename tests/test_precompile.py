@@ -1,0 +1,28 @@
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+CHAIN = """
+from solids import torus
+import morphoskel.chain.compiler
+from morphoskel.morphology import dilation, opening
+from morphoskel.skeleton import ms3d
+from morphoskel.volume import Candidates
+for mode in ("random", "grid"):
+    skeleton = ms3d(torus(), Candidates(*torus().bounds, 5000, mode), threads=2)
+for operation in (dilation, opening):
+    operation(skeleton.points.astype("f4"), skeleton.radii.astype("f4"), threads=2)
+"""
+
+
+@pytest.mark.slow
+def test_no_kernel_is_left_to_compile_for_a_job(tmp_path):
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    subprocess.run([sys.executable, "-m", "morphoskel.precompile"], env=environment, check=True)
+    compiled = {path.name for path in tmp_path.rglob("*.nbc")}
+    subprocess.run([sys.executable, "-c", CHAIN], env=environment, cwd=Path(__file__).parent, check=True)
+    assert len(compiled) > 20
+    assert {path.name for path in tmp_path.rglob("*.nbc")} == compiled
