@@ -24,7 +24,7 @@ CHAIN = ["reconstruct", "watertight", "occupancy", "udf", "dilation", "select_sk
 def copy_repository(target: Path) -> Path:
     target.mkdir(parents=True)
     for name in ("workflow", "config", "profiles", "src"):
-        shutil.copytree(REPOSITORY / name, target / name, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(REPOSITORY / name, target / name, ignore=shutil.ignore_patterns("*.pyc"))
     for name in ("Snakefile", "environment.yml"):
         shutil.copy(REPOSITORY / name, target)
     return target
