@@ -14,6 +14,7 @@ import pandas as pd
 
 from benchmarks.agreement import TOLERANCE, compare
 from benchmarks.surfaces import REPOSITORY, prepare_surfaces
+from morphoskel.precompile import precompile
 
 logger = logging.getLogger(__name__)
 
@@ -31,6 +32,7 @@ def measure(name, surface, mode, count, answer="-"):
 
 def run(folder: Path) -> bool:
     """Write ``ms3d.csv`` and ``agreement.csv``; return whether all answers agree."""
+    precompile()
     rows, agreements = [], []
     with tempfile.TemporaryDirectory() as scratch:
         surfaces = prepare_surfaces(Path(scratch))
@@ -49,9 +51,9 @@ def run(folder: Path) -> bool:
 def _compare(name, surface, mode, scratch, repeats):
     answers = {which: scratch / f"{which}.npz" for which in ("released", "ours")}
     runs = {which: [] for which in answers}
-    for _ in range(repeats):
+    for number in range(repeats):
         for which, answer in answers.items():
-            runs[which].append(measure(which, surface, mode, CANDIDATES, answer))
+            runs[which].append(measure(which, surface, mode, CANDIDATES, answer if number == 0 else "-"))
     agreement = compare(*(dict(np.load(answer)) for answer in answers.values()))
     seconds = {which: float(np.median([run["seconds"] for run in found])) for which, found in runs.items()}
     row = {
