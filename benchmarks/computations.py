@@ -72,7 +72,7 @@ def ours(surface: Path, mode: str, count: int, seed: int = SEED, threads: int | 
 def peak_memory():
     """Return the most memory, in MB, that this process has held since its program was started.
 
-    ``ru_maxrss`` will not do where there is better: it also counts what the process held before, as a copy of its parent.
+    ``ru_maxrss`` will not do where there is better: it counts what the process held as a copy of its parent, too.
     """
     status = Path("/proc/self/status")
     if status.is_file():
