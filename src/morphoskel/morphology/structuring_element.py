@@ -94,17 +94,19 @@ class StructuringElement:
         The dilation by the transposed element: the adjoint of :meth:`erode`.
         """
         keys = self._sorted_keys(values)
-        cells = int(np.prod(self._cells)) if len(self) else 0
+        if len(self) == 0:
+            return self._unsorted_values(keys)
+        cells, radii = int(np.prod(self._cells)), self._radii
 
         def spread_block(start: int, stop: int) -> npt.NDArray[np.int32]:
             spread = keys.copy()
             neighbour_kernels.spread_over_cells(
-                self._points, keys, self._radii, self._starts, self._cells, self._side, start, stop, spread
+                self._points, keys, radii, self._starts, self._cells, self._side, start, stop, spread
             )
             return spread
 
         parts = run_blocks(spread_block, cells, block=max(-(-cells // self.threads), 1), threads=self.threads)
-        return self._unsorted_values(np.maximum.reduce(parts) if parts else keys)
+        return self._unsorted_values(np.maximum.reduce(parts))
 
     @cached_property
     def _radii(self) -> npt.NDArray[np.int32]:
