@@ -54,4 +54,10 @@ def test_skeleton_refuses(field, values):
 
 
 def test_an_empty_skeleton_describes_itself():
-    assert repr(Skeleton(np.zeros((0, 3)), np.zeros(0), np.zeros(0))) == "Skeleton(0 maximal balls)"
+    assert repr(Skeleton(np.zeros((0, 3)), np.zeros(0), np.zeros(0))) == "Skeleton(0 balls)"
+
+
+@pytest.mark.parametrize(("part", "value"), [("edges", [[0, 3]]), ("triangles", [[0, 1]]), ("edges", [[-1, 0]])])
+def test_skeleton_refuses_connections_between_centres_that_it_does_not_have(part, value):
+    with pytest.raises(InputError, match=part):
+        Skeleton(np.zeros((3, 3)), np.zeros(3), **{part: value})

@@ -148,9 +148,18 @@ def test_what_is_no_skeleton(tmp_path, cloud):
         read_skeleton_ply(tmp_path / "absent.ply")
     path = tmp_path / "cloud.ply"
     write_cloud_ply(path, cloud)
-    with pytest.raises(InputError, match=r"cloud\.ply: expected the vertex properties .*residue"):
+    with pytest.raises(InputError, match=r"cloud\.ply: expected the vertex properties .*radius"):
         read_skeleton_ply(path)
     write_skeleton_ply(path, Skeleton(CORNERS, np.arange(4.0), np.zeros(4)))
     path.write_bytes(path.read_bytes()[:-1])
     with pytest.raises(InputError, match="truncated"):
         read_skeleton_ply(path)
+
+
+def test_connected_skeleton_without_residues_comes_back(tmp_path):
+    skeleton = Skeleton(CORNERS, np.arange(4.0), edges=[[0, 3]], triangles=[[0, 1, 2], [1, 2, 3]])
+    write_skeleton_ply(tmp_path / "a.ply", skeleton)
+    read = read_skeleton_ply(tmp_path / "a.ply")
+    assert read.residues is None
+    for name in ("points", "radii", "edges", "triangles"):
+        assert np.array_equal(getattr(read, name), getattr(skeleton, name))

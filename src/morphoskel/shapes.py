@@ -5,7 +5,7 @@ The classes validate themselves on construction, so that a function that receive
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
@@ -113,47 +113,63 @@ class Mesh:
 
 @dataclass(frozen=True, eq=False)
 class Skeleton:
-    """Centres of maximal balls, best first.
+    """Skeletal balls, best first where the method ranks them, and how they hang together where it says so.
 
     Parameters
     ----------
     points
         ``(K, 3)`` float64, the centres.
     radii
-        ``(K,)`` float64, distance from each centre to the surface (the UDF), in the shape's units.
+        ``(K,)`` float64, in the shape's units: distance from each centre to the surface.
     residues
-        ``(K,)`` float64, dilation minus UDF (paper, Eq. 5): 0 at an exact local maximum.
+        ``(K,)`` float64, dilation minus UDF (paper, Eq. 5): 0 at an exact local maximum. ``None`` from a method
+        that does not dilate.
+    edges
+        ``(E, 2)`` int64, pairs of centres that are joined by a piece of curve; none by default.
+    triangles
+        ``(T, 3)`` int64, triples of centres that span a piece of sheet; none by default.
 
     Raises
     ------
     InputError
-        If the arrays do not match each other, a value is not finite, or a radius or residue is negative.
+        If the arrays do not match each other, a value is not finite, a radius or residue is negative, or an index is
+        out of range.
     """
 
     points: FloatArray
     radii: FloatArray
-    residues: FloatArray
+    residues: FloatArray | None = None
+    edges: IntArray = field(default_factory=lambda: np.empty((0, 2), dtype=np.int64))
+    triangles: IntArray = field(default_factory=lambda: np.empty((0, 3), dtype=np.int64))
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", _finite_rows(self.points, "points"))
-        for name in ("radii", "residues"):
+        for name in ("radii", "residues") if self.residues is not None else ("radii",):
             values = np.ascontiguousarray(getattr(self, name), dtype=np.float64)
             if values.shape != (len(self.points),):
                 raise InputError(f"{name}: expected shape ({len(self.points)},), one a centre, got {values.shape}")
             if not np.isfinite(values).all() or (values < 0).any():
                 raise InputError(f"{name}: every value must be finite and at least 0")
             object.__setattr__(self, name, values)
+        for name, corners in (("edges", 2), ("triangles", 3)):
+            indices = np.ascontiguousarray(getattr(self, name), dtype=np.int64)
+            if indices.ndim != 2 or indices.shape[1] != corners:
+                raise InputError(f"{name}: expected shape (N, {corners}), got {indices.shape}")
+            if len(indices) and not (indices.min() >= 0 and indices.max() < len(self.points)):
+                raise InputError(f"{name}: indices must lie in [0, {len(self.points)}), the range of the centres")
+            object.__setattr__(self, name, indices)
 
     def __len__(self) -> int:
         return len(self.points)
 
     def __repr__(self) -> str:
         if len(self) == 0:
-            return "Skeleton(0 maximal balls)"
-        return (
-            f"Skeleton({len(self)} maximal balls, radii {self.radii.min():.4g} to {self.radii.max():.4g}, "
-            f"largest residue {self.residues.max():.4g})"
-        )
+            return "Skeleton(0 balls)"
+        details = [f"{len(self)} balls", f"radii {self.radii.min():.4g} to {self.radii.max():.4g}"]
+        if self.residues is not None:
+            details.append(f"largest residue {self.residues.max():.4g}")
+        details += [f"{len(part)} {name}" for name in ("edges", "triangles") if len(part := getattr(self, name))]
+        return f"Skeleton({', '.join(details)})"
 
 
 def _finite_rows(array: npt.ArrayLike, name: str, expected_rows: int | None = None) -> FloatArray:

@@ -11,10 +11,10 @@ import numpy.typing as npt
 from morphoskel.atomic import atomic_file
 from morphoskel.errors import InputError
 from morphoskel.formats.ply import parse_ply_elements, stack_properties
-from morphoskel.shapes import FloatArray, Mesh, PointCloud, Skeleton
+from morphoskel.formats.ply_body import RaggedList
+from morphoskel.shapes import FloatArray, IntArray, Mesh, PointCloud, Skeleton
 
 _TYPE_NAMES = {"f4": "float", "f8": "double", "i4": "int"}
-_SKELETON_PROPERTIES = ("x", "y", "z", "radius", "residue")
 
 
 def write_cloud_ply(path: Path, cloud: PointCloud) -> None:
@@ -53,18 +53,28 @@ def write_mesh_ply(path: Path, mesh: Mesh) -> None:
     table: dict[str, npt.NDArray[Any]] = {
         name: _as_float32(mesh.vertices[:, axis], path) for axis, name in enumerate(("x", "y", "z"))
     }
-    faces = np.empty(len(mesh.triangles), dtype=[("count", "u1"), ("corners", "<i4", 3)])
-    faces["count"] = 3
-    faces["corners"] = mesh.triangles
+    faces = _faces(mesh.triangles)
     extra = (f"element face {len(faces)}", "property list uchar int vertex_indices")
     _write(path, _header(table, *extra), _rows(table).tobytes() + faces.tobytes())
 
 
 def write_skeleton_ply(path: Path, skeleton: Skeleton) -> None:
-    """Write a skeleton as binary PLY with the float64 properties ``x y z radius residue``, so nothing is rounded."""
-    columns = (*skeleton.points.T, skeleton.radii, skeleton.residues)
-    table = {name: column.astype("<f8") for name, column in zip(_SKELETON_PROPERTIES, columns, strict=True)}
-    _write(path, _header(table), _rows(table).tobytes())
+    """Write a skeleton as binary PLY with the float64 properties ``x y z radius``, so nothing is rounded.
+
+    Where the skeleton has them, ``residue`` is a fifth property, and its edges and triangles are the elements
+    ``edge`` (``vertex1 vertex2``) and ``face``.
+    """
+    columns = dict(zip(("x", "y", "z", "radius"), (*skeleton.points.T, skeleton.radii), strict=True))
+    if skeleton.residues is not None:
+        columns["residue"] = skeleton.residues
+    table = {name: column.astype("<f8") for name, column in columns.items()}
+    extra = []
+    if len(skeleton.edges):
+        extra += [f"element edge {len(skeleton.edges)}", "property int vertex1", "property int vertex2"]
+    if len(skeleton.triangles):
+        extra += [f"element face {len(skeleton.triangles)}", "property list uchar int vertex_indices"]
+    body = _rows(table).tobytes() + skeleton.edges.astype("<i4").tobytes() + _faces(skeleton.triangles).tobytes()
+    _write(path, _header(table, *extra), body)
 
 
 def read_skeleton_ply(path: Path | str) -> Skeleton:
@@ -81,16 +91,35 @@ def read_skeleton_ply(path: Path | str) -> Skeleton:
     except OSError as error:
         raise InputError(f"{path}: cannot be read ({error.strerror}); check the path") from error
     try:
-        values = stack_properties(parse_ply_elements(content).get("vertex", {}), _SKELETON_PROPERTIES)
-        return Skeleton(values[:, :3], values[:, 3], values[:, 4])
+        elements = parse_ply_elements(content)
+        vertex = elements.get("vertex", {})
+        values = stack_properties(vertex, ("x", "y", "z", "radius"))
+        residues = stack_properties(vertex, ("residue",))[:, 0] if "residue" in vertex else None
+        parts = {}
+        if "edge" in elements:
+            parts["edges"] = stack_properties(elements["edge"], ("vertex1", "vertex2")).astype(np.int64)
+        faces = elements.get("face", {}).get("vertex_indices")
+        if isinstance(faces, RaggedList):
+            parts["triangles"] = np.asarray(faces.values, dtype=np.int64).reshape(-1, 3)
+        return Skeleton(values[:, :3], values[:, 3], residues, **parts)
     except InputError as error:
         raise InputError(f"{path}: {error}") from error
 
 
 def write_skeleton_npz(path: Path, skeleton: Skeleton) -> None:
-    """Write a skeleton as the NumPy arrays ``points``, ``radii`` and ``residues``; equal skeletons give equal bytes."""
+    """Write a skeleton as NumPy arrays named like its fields; equal skeletons give equal bytes."""
+    names = ("points", "radii", "residues", "edges", "triangles")
+    arrays = {name: array for name in names if (array := getattr(skeleton, name)) is not None and len(array)}
     with atomic_file(path) as partial, partial.open("wb") as stream:
-        np.savez(stream, points=skeleton.points, radii=skeleton.radii, residues=skeleton.residues)
+        np.savez(stream, **arrays)
+
+
+def _faces(triangles: IntArray) -> npt.NDArray[Any]:
+    """Return triangles as the packed rows of a list property."""
+    faces = np.empty(len(triangles), dtype=[("count", "u1"), ("corners", "<i4", (3,))])
+    faces["count"] = 3
+    faces["corners"] = triangles
+    return faces
 
 
 def _as_float32(values: FloatArray, path: Path) -> npt.NDArray[np.float32]:

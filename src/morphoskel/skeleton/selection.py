@@ -65,4 +65,5 @@ def skeleton_of(
     """
     residues = residue(udf, dilated)
     chosen = select_smallest_residues(residues, udf, points)
-    return Skeleton(*(array[chosen].astype(np.float64) for array in (inner, udf, residues)))
+    centres, radii, kept = (array[chosen].astype(np.float64) for array in (inner, udf, residues))
+    return Skeleton(centres, radii, kept)
