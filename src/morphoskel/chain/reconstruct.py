@@ -3,14 +3,27 @@
 from morphoskel.chain.task import Details, Task
 from morphoskel.datasets.configured import open_configured
 from morphoskel.formats import write_mesh_ply
-from morphoskel.surface import reconstruct
+from morphoskel.surface.reconstruct import REPAIRED, reconstruct, reconstruct_repaired
 
-HEAVY_IMPORTS = ("open3d",)
+HEAVY_IMPORTS = (
+    "open3d",
+    "morphoskel.chain.compiler",
+    "morphoskel.volume.triangle_tree_kernels",
+    "morphoskel.volume.distance_kernels",
+)
 
 
 def run(task: Task) -> Details:
     """Read the shape's cloud, rebuild its surface and write it as PLY."""
     cloud = open_configured(task.settings["dataset"], seed=task.settings["dataset_seed"]).load(task.record.path)
-    mesh = reconstruct(cloud, task.settings["surface"], **task.settings["reconstruction"])
+    method, settings = task.settings["surface"], task.settings["reconstruction"]
+    details: Details = {"points": len(cloud)}
+    if method == REPAIRED:
+        repair = reconstruct_repaired(cloud, **settings)
+        mesh = repair.mesh
+        details |= {name: getattr(repair, name) for name in ("missed", "buried", "removed", "added")}
+        details["repaired"] = repair.reason
+    else:
+        mesh = reconstruct(cloud, method, seed=task.seed, **settings)
     write_mesh_ply(task.write(".ply"), mesh)
-    return {"points": len(cloud), "triangles": len(mesh.triangles)}
+    return {**details, "triangles": len(mesh.triangles)}

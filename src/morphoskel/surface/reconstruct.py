@@ -13,26 +13,37 @@ from morphoskel.shapes import Mesh, PointCloud
 from morphoskel.surface.alpha_shape import reconstruct_alpha_shape
 from morphoskel.surface.ball_pivoting import reconstruct_ball_pivoting
 from morphoskel.surface.poisson import reconstruct_poisson
+from morphoskel.surface.ponq import reconstruct_ponq
+from morphoskel.surface.repair import Repair, repair_surface
 
 if TYPE_CHECKING:
     import open3d
 
-METHODS: dict[str, Callable[..., open3d.geometry.TriangleMesh]] = {
+METHODS: dict[str, Callable[..., open3d.geometry.TriangleMesh | Mesh]] = {
     "poisson": reconstruct_poisson,
     "ball_pivoting": reconstruct_ball_pivoting,
     "alpha_shape": reconstruct_alpha_shape,
+    "ponq": reconstruct_ponq,
 }
 
+REPAIRED = "repaired_poisson"
+"""Poisson, compared with the cloud and mended: our own addition."""
 
-def reconstruct(cloud: PointCloud, method: str = "poisson", **settings: Any) -> Mesh:
-    """Rebuild a surface by one of the methods that the paper compares.
+SURFACES = (*METHODS, REPAIRED)
+"""All reconstructions by name."""
+
+
+def reconstruct(cloud: PointCloud, method: str = "poisson", *, seed: int = 0, **settings: Any) -> Mesh:
+    """Rebuild a surface by one of the methods that the paper compares, or by repaired Poisson.
 
     Parameters
     ----------
     cloud
         Points on the surface; missing normals are completed.
     method
-        ``poisson``, ``ball_pivoting`` or ``alpha_shape``.
+        One of :data:`SURFACES`.
+    seed
+        Of PoNQ, which draws its sites; the others are deterministic.
     settings
         Passed to the method, see its function.
 
@@ -48,12 +59,21 @@ def reconstruct(cloud: PointCloud, method: str = "poisson", **settings: Any) -> 
     ShapeError
         If the method finds no surface.
     """
+    if method == REPAIRED:
+        return reconstruct_repaired(cloud, **settings).mesh
     if method not in METHODS:
-        raise ConfigError(f"surface: no such reconstruction {method!r}; legal are {', '.join(METHODS)}")
+        raise ConfigError(f"surface: no such reconstruction {method!r}; legal are {', '.join(SURFACES)}")
+    if method == "ponq":
+        settings = {**settings, "seed": seed}
     with native_output_logged(method):
         mesh = METHODS[method](cloud, **settings)
     if len(mesh.triangles) == 0:
         raise ShapeError(
             f"{method}: no triangle was found on {cloud!r}; the points may be too sparse for its settings {settings}"
         )
-    return Mesh(np.asarray(mesh.vertices), np.asarray(mesh.triangles))
+    return mesh if isinstance(mesh, Mesh) else Mesh(np.asarray(mesh.vertices), np.asarray(mesh.triangles))
+
+
+def reconstruct_repaired(cloud: PointCloud, *, depth: int = 8) -> Repair:
+    """Rebuild a surface by Poisson reconstruction and mend it, see :func:`repair_surface`."""
+    return repair_surface(reconstruct(cloud, "poisson", depth=depth), cloud)

@@ -1,0 +1,171 @@
+"""Run one phase of a training so that it can be killed at any time and goes on as if it had not been."""
+
+from __future__ import annotations
+
+import csv
+import logging
+import time
+import warnings
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import lightning
+import torch
+from lightning.pytorch.callbacks import Callback, ModelCheckpoint
+
+from morphoskel.atomic import atomic_file
+from morphoskel.seeds import derive_seed
+
+logger = logging.getLogger(__name__)
+
+LOG_COLUMNS = ("epoch", "training_loss", "validation_loss", "seconds")
+
+
+class Batches:
+    """Rows of tensors, a tuple a batch. Lightning would take a plain list for several loaders side by side."""
+
+    def __init__(self, tensors: tuple[torch.Tensor, ...], parts: Sequence[torch.Tensor]) -> None:
+        self.tensors = tensors
+        self.parts = parts
+
+    def __len__(self) -> int:
+        return len(self.parts)
+
+    def __iter__(self) -> Iterator[tuple[torch.Tensor, ...]]:
+        for part in self.parts:
+            yield tuple(tensor[part] for tensor in self.tensors)
+
+
+class BatchedPhase(lightning.LightningModule):
+    """A phase of training on tensors that fit into memory, in an order that only the seed and the epoch decide.
+
+    A subclass defines :meth:`loss` and ``configure_optimizers``. No state of a random generator has to be kept with a
+    checkpoint: order and dropout of an epoch are drawn from the seed, the phase's name and the number of the epoch.
+
+    Parameters
+    ----------
+    name
+        Of the phase; part of the seeds.
+    training, validation
+        Tensors whose first axis runs over the shapes, the same length within each tuple, at least 1.
+    batch_size
+        Shapes a step. An incomplete last batch is left out, since batch normalisation would suffer; with fewer shapes
+        than that, all of them are one batch.
+    seed
+        Of the training.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        training: tuple[torch.Tensor, ...],
+        validation: tuple[torch.Tensor, ...],
+        batch_size: int,
+        seed: int,
+    ) -> None:
+        super().__init__()
+        self.name = name
+        self.training_tensors = training
+        self.validation_tensors = validation
+        self.batch_size = batch_size
+        self.seed = seed
+
+    def loss(self, batch: tuple[torch.Tensor, ...]) -> torch.Tensor:
+        """Return the scalar loss of a batch, a mean over its shapes."""
+        raise NotImplementedError
+
+    def train_dataloader(self) -> Batches:
+        """Return the batches of the current epoch; called anew for every epoch."""
+        shapes = len(self.training_tensors[0])
+        seed = derive_seed(self.seed, self.name, "order", str(self.current_epoch))
+        order = torch.randperm(shapes, generator=torch.Generator().manual_seed(seed))
+        size = min(self.batch_size, shapes)
+        return Batches(self.training_tensors, torch.split(order[: shapes - shapes % size], size))
+
+    def val_dataloader(self) -> Batches:
+        """Return the batches of the validation shapes, the last one maybe smaller."""
+        shapes = len(self.validation_tensors[0])
+        return Batches(self.validation_tensors, torch.split(torch.arange(shapes), self.batch_size))
+
+    def on_train_epoch_start(self) -> None:
+        """Seed what draws from the global generator, the dropout."""
+        torch.manual_seed(derive_seed(self.seed, self.name, "dropout", str(self.current_epoch)))
+
+    def training_step(self, batch: tuple[torch.Tensor, ...], index: int) -> torch.Tensor:
+        """Return the loss of a batch and add it to the epoch's mean."""
+        loss = self.loss(batch)
+        self.log("training_loss", loss, on_step=False, on_epoch=True, batch_size=len(batch[0]))
+        return loss
+
+    def validation_step(self, batch: tuple[torch.Tensor, ...], index: int) -> None:
+        """Add the loss of a batch to the mean over the validation shapes."""
+        self.log("validation_loss", self.loss(batch), prog_bar=True, batch_size=len(batch[0]))
+
+
+class _LossTable(Callback):
+    """Write a row an epoch to a CSV file; rows of epochs that are run again after a kill are replaced."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.started = time.perf_counter()
+
+    def on_train_epoch_start(self, trainer: lightning.Trainer, pl_module: lightning.LightningModule) -> None:
+        self.started = time.perf_counter()
+
+    def on_train_epoch_end(self, trainer: lightning.Trainer, pl_module: lightning.LightningModule) -> None:
+        rows: list[list[Any]] = []
+        if self.path.exists():
+            with self.path.open(newline="") as file:
+                rows = [row for row in list(csv.reader(file))[1:] if int(row[0]) < trainer.current_epoch]
+        losses = [f"{float(trainer.callback_metrics[name]):.6g}" for name in LOG_COLUMNS[1:3]]
+        rows.append([trainer.current_epoch, *losses, f"{time.perf_counter() - self.started:.2f}"])
+        with atomic_file(self.path) as partial, partial.open("w", newline="") as file:
+            csv.writer(file).writerows([LOG_COLUMNS, *rows])
+        logger.info("%s: epoch %s, training loss %s, validation loss %s, %s s", self.path.stem, *rows[-1])
+
+
+def resumable_fit(phase: BatchedPhase, epochs: int, folder: Path, *, accelerator: str, progress: bool) -> None:
+    """Train a phase and load the weights of the epoch with the smallest validation loss into it.
+
+    Parameters
+    ----------
+    phase
+        Holds the weights to start from; holds the best ones at the end.
+    epochs
+        Passes over the training shapes.
+    folder
+        For ``<name>.csv`` with the losses and ``<name>/`` with the checkpoints of the last and the best epoch. If it
+        holds a last checkpoint, the training goes on from there.
+    accelerator
+        As in Lightning, for example ``"auto"`` or ``"cpu"``.
+    progress
+        Whether to show a progress bar.
+    """
+    logging.getLogger("lightning.pytorch").setLevel(logging.WARNING)  # it advertises at level INFO
+    checkpoints = folder / phase.name
+    keep = ModelCheckpoint(
+        checkpoints, "best", monitor="validation_loss", save_last=True, save_on_train_epoch_end=True,
+        enable_version_counter=False,
+    )  # fmt: skip
+    trainer = lightning.Trainer(
+        accelerator=accelerator,
+        devices=1,
+        max_epochs=epochs,
+        callbacks=[_LossTable(folder / f"{phase.name}.csv"), keep],
+        logger=False,
+        default_root_dir=folder,
+        num_sanity_val_steps=0,
+        reload_dataloaders_every_n_epochs=1,
+        enable_progress_bar=progress,
+        enable_model_summary=False,
+    )
+    last = checkpoints / "last.ckpt"
+    with warnings.catch_warnings():
+        # Lightning 2.6 calls a function of torch that torch 2.13 deprecates, and warns of a folder of checkpoints that
+        # is not empty, which it never is when a training goes on.
+        warnings.filterwarnings("ignore", r".*LeafSpec", FutureWarning)
+        warnings.filterwarnings("ignore", r"Checkpoint directory .* exists and is not empty")
+        trainer.fit(phase, ckpt_path=last if last.exists() else None, weights_only=True)
+    best = torch.load(checkpoints / "best.ckpt", map_location="cpu", weights_only=True)
+    phase.load_state_dict(best["state_dict"])

@@ -1,0 +1,118 @@
+"""Train Point2Skeleton from clouds to the file with the trained network."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+import torch
+from torch import Tensor
+
+from morphoskel.atomic import atomic_file
+from morphoskel.errors import InputError
+from morphoskel.learning.point2skeleton_phases import PRETRAIN, SKELETON, LinkPhase, SkeletalPointPhase
+from morphoskel.learning.resumable_fit import resumable_fit
+from morphoskel.networks.cloud_preparation import prepare_cloud
+from morphoskel.networks.point2skeleton_network import Point2SkeletonNetwork, save_network
+from morphoskel.networks.point2skeleton_settings import Point2SkeletonSettings
+from morphoskel.seeds import derive_seed
+from morphoskel.shapes import FloatArray, PointCloud
+
+NETWORK_FILE = "network.pt"
+IDENTITY_FILE = "training.json"
+"""Says which training the checkpoints beside it belong to."""
+
+
+def train_point2skeleton(
+    clouds: Sequence[PointCloud | FloatArray],
+    validation: Sequence[PointCloud | FloatArray],
+    settings: Point2SkeletonSettings,
+    checkpoint_folder: Path,
+    seed: int,
+    *,
+    accelerator: str = "auto",
+    progress: bool = True,
+) -> Path:
+    """Train the networks in three phases: spread the skeletal points, fit the balls, predict the links.
+
+    Parameters
+    ----------
+    clouds
+        Training shapes, as clouds or ``(N, 3)`` float64 arrays of any number of points and in any units, see
+        :func:`~morphoskel.networks.cloud_preparation.prepare_cloud`.
+    validation
+        Shapes held out from training, at least one. After each phase the epoch with the smallest loss on them is kept.
+    settings
+        Sizes and schedule.
+    checkpoint_folder
+        For the result, checkpoints, and a CSV file a phase with the losses and seconds of each epoch. A training that
+        was killed goes on from what it finds there.
+    seed
+        Decides the initial weights, the order of the shapes and the dropout.
+    accelerator
+        As in Lightning: ``"auto"`` takes a GPU if there is one.
+    progress
+        Whether to show a progress bar.
+
+    Returns
+    -------
+    Path
+        ``network.pt`` in the folder, to be read by
+        :func:`~morphoskel.networks.point2skeleton_network.load_point2skeleton`.
+
+    Raises
+    ------
+    InputError
+        If there is no training or no validation cloud, a cloud is none, or the folder holds a training with other
+        settings.
+
+    Notes
+    -----
+    On a CPU the result is the same to the last bit for the same arguments, version of torch and number of its threads,
+    whether or not the training was interrupted. Unlike the released program, which keeps the last epoch, each phase
+    ends with its best epoch, and Adam starts each phase afresh.
+
+    References
+    ----------
+    .. [1] C. Lin et al., "Point2Skeleton: Learning Skeletal Representations from Point Clouds", CVPR 2021.
+    """
+    training_points = _prepare(clouds, settings.points, "training")
+    validation_points = _prepare(validation, settings.points, "validation")
+    _claim(checkpoint_folder, settings, seed, (training_points, validation_points))
+    result = checkpoint_folder / NETWORK_FILE
+    if result.exists():
+        return result
+    with torch.random.fork_rng():
+        torch.manual_seed(derive_seed(seed, "point2skeleton", "initial weights"))
+        network = Point2SkeletonNetwork(settings)
+        for name, epochs in ((PRETRAIN, settings.pretrain_epochs), (SKELETON, settings.skeleton_epochs)):
+            phase = SkeletalPointPhase(name, network, training_points, validation_points, seed)
+            resumable_fit(phase, epochs, checkpoint_folder, accelerator=accelerator, progress=progress)
+        links = LinkPhase(network, training_points, validation_points, seed)
+        resumable_fit(links, settings.link_epochs, checkpoint_folder, accelerator=accelerator, progress=progress)
+    save_network(network, result)
+    return result
+
+
+def _prepare(clouds: Sequence[PointCloud | FloatArray], points: int, role: str) -> Tensor:
+    """Return ``(S, points, 3)`` float32, or say that there is nothing to train on."""
+    if not clouds:
+        raise InputError(f"training Point2Skeleton needs at least one {role} cloud")
+    return torch.stack([prepare_cloud(cloud, points).points for cloud in clouds])
+
+
+def _claim(folder: Path, settings: Point2SkeletonSettings, seed: int, clouds: tuple[Tensor, Tensor]) -> None:
+    """Write down which training the folder belongs to, or refuse to go on with another one's checkpoints."""
+    digests = [hashlib.sha256(part.numpy().tobytes()).hexdigest() for part in clouds]
+    identity = json.dumps({"settings": settings.as_mapping(), "seed": seed, "sha256_of_clouds": digests}, indent=2)
+    path = folder / IDENTITY_FILE
+    if not path.exists():
+        with atomic_file(path) as partial:
+            partial.write_text(identity)
+    elif path.read_text() != identity:
+        raise InputError(
+            f"{folder}: holds the checkpoints of a training with other settings, clouds or seed, see {path.name}; "
+            "choose another folder or delete this one"
+        )

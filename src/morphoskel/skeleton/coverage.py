@@ -1,0 +1,185 @@
+"""Pick maximal balls that together explain the surface: our own rule beside the paper's smallest residues (Eq. 7).
+
+The smallest residues alone say where maximal balls are, but not how to share them out. On flat parts thousands of
+candidates have residue exactly 0; they fill the places, and thin parts stay bare. The coverage selection takes the
+residue as what it is, a test of maximality, and lets the surface decide where balls are needed:
+
+1. *Touch.* The ball of a true shape touches its surface. A candidate counts only if its nearest surface point is as
+   far away as the rebuilt surface, up to the spacing of the points; balls of a part that the reconstruction invented
+   fall out here.
+2. *Nominate.* Every surface point nominates the candidates nearest to it, those of smallest residue first. So each
+   part of the surface has its say, thick or thin.
+3. *Cover.* Balls are taken from the nominees one by one. Each is for the surface point that is explained worst, and
+   of those that would explain it, the one that lowers the squared errors of all points most; big balls explain many
+   points and come first.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from morphoskel.errors import InputError, ShapeError
+from morphoskel.shapes import FloatArray, IntArray, Skeleton
+from morphoskel.surface.repair import mean_spacing
+
+MOST_SURFACE_POINTS = 8192
+"""Surface points that take part; of more, every so-manieth. They bound the time, not the number of balls."""
+
+CONTENDERS = 16
+"""Balls that explain the worst point best, of which the one that helps all points most is chosen."""
+
+NOMINEES_OF_A_THIN_PART = 2
+"""Nominees of a surface point whatever their residue. A part thinner than the structuring element has no residue
+below half its radius, for the UDF itself varies by less."""
+
+LARGEST_RESIDUE = 0.5
+"""Of the other nominees, in radii of the structuring element. The UDF grows by the distance to a maximal ball's centre,
+so the residue of a point a whole radius away from one is about 1."""
+
+
+def coverage_skeleton(
+    inner: npt.NDArray[np.float32],
+    udf: npt.NDArray[np.float32],
+    residues: npt.NDArray[np.float32],
+    surface_points: FloatArray,
+    *,
+    points: int,
+    element_radius: float,
+    nominees: int = 8,
+    touch: float = 1.0,
+    threads: int = 1,
+) -> Skeleton:
+    """Choose maximal balls that explain the surface points.
+
+    A surface point ``p`` is explained by the ball with the nearest centre ``c``, up to the error ``| |p - c| - r |``.
+
+    Parameters
+    ----------
+    inner
+        ``(M, 3)`` float32, candidates inside the surface.
+    udf, residues
+        ``(M,)`` float32, distance to the rebuilt surface, and dilation minus UDF.
+    surface_points
+        ``(P, 3)`` float64, points of the true surface: the cloud that the surface was rebuilt from.
+    points
+        Balls wanted; fewer if fewer are nominated.
+    element_radius
+        Radius of the structuring element, see :func:`typical_radius`.
+    nominees
+        Candidates that each surface point nominates.
+    touch
+        Largest difference between a candidate's distances to the rebuilt surface and to the points, in mean
+        distances between a surface point and its nearest neighbour.
+    threads
+        Threads of the nearest-point search. Does not change the result.
+
+    Returns
+    -------
+    Skeleton
+        In the order of choice, so that the first n balls are a skeleton of n balls. Radii are distances to the
+        nearest surface point: the points lie on the true surface, the rebuilt one only near it.
+
+    Raises
+    ------
+    InputError
+        If there are too few surface points.
+    ShapeError
+        If no ball touches the surface points.
+    """
+    from scipy.spatial import KDTree
+
+    surface_points = surface_points[:: -(-len(surface_points) // MOST_SURFACE_POINTS)]
+    if len(np.unique(surface_points, axis=0)) < 2:
+        raise InputError("coverage selection: expected at least 2 distinct surface points")
+    tree = KDTree(surface_points)
+    spacing = mean_spacing(surface_points)
+    found = tree.query(inner, workers=threads)
+    to_surface, nearest = np.asarray(found[0]), np.asarray(found[1])
+    touching = np.flatnonzero(np.abs(to_surface - udf) <= touch * spacing)
+    if len(touching) == 0:
+        raise ShapeError(
+            f"coverage selection: none of {len(inner)} inner points is as far from the cloud as from the rebuilt "
+            "surface; the surface does not follow the cloud, try another reconstruction or a larger "
+            "skeleton.coverage.touch"
+        )
+    kept = touching[
+        nominate(nearest[touching], residues[touching], udf[touching], nominees, LARGEST_RESIDUE * element_radius)
+    ]
+    centres, radii = inner[kept].astype(np.float64), to_surface[kept]
+    chosen = choose_covering(surface_points, centres, radii, points)
+    return Skeleton(centres[chosen], radii[chosen], residues[kept[chosen]].astype(np.float64))
+
+
+def typical_radius(lower: FloatArray, upper: FloatArray, candidates: int, k: int) -> float:
+    """Return the radius of a ball that holds `k` of so many candidates spread over a box."""
+    density = candidates / float(np.prod(np.asarray(upper) - np.asarray(lower)))
+    return float((3 * k / (4 * np.pi * density)) ** (1 / 3))
+
+
+def nominate(
+    nearest: IntArray,
+    residues: npt.NDArray[np.float32],
+    udf: npt.NDArray[np.float32],
+    nominees: int,
+    largest_residue: float,
+) -> IntArray:
+    """Return the candidates of smallest residue among those that share their nearest surface point.
+
+    Parameters
+    ----------
+    nearest
+        ``(M,)`` int64, the surface point nearest to each candidate.
+    residues, udf
+        ``(M,)`` float32; ties of the residue go to the larger ball, then to the smaller index.
+    nominees
+        Candidates of each surface point.
+    largest_residue
+        Of all but the first :data:`ALWAYS_NOMINATED`.
+
+    Returns
+    -------
+    ndarray
+        ``(C,)`` int64 indices of candidates, by surface point, then by rank.
+    """
+    order = np.lexsort((-udf, residues, nearest))
+    groups = nearest[order]
+    first = np.searchsorted(groups, groups)
+    rank = np.arange(len(order)) - first
+    small = residues[order] <= largest_residue
+    kept = np.where(small[first], small & (rank < nominees), rank < NOMINEES_OF_A_THIN_PART)
+    nominated: IntArray = order[kept]
+    return nominated
+
+
+def choose_covering(surface_points: FloatArray, centres: FloatArray, radii: FloatArray, count: int) -> IntArray:
+    """Choose balls that explain all surface points, the worst explained point first.
+
+    The first ball is the largest. Once no surface point can be explained better, balls far from those chosen follow.
+
+    Parameters
+    ----------
+    surface_points
+        ``(P, 3)`` float64.
+    centres, radii
+        ``(C, 3)`` and ``(C,)`` float64, the balls to choose from.
+    count
+        Balls wanted.
+
+    Returns
+    -------
+    ndarray
+        ``(min(count, C),)`` int64, indices of balls in the order of choice.
+    """
+    from morphoskel.skeleton.coverage_kernels import cover
+
+    chosen = np.empty(min(count, len(centres)), dtype=np.int64)
+    cover(
+        np.ascontiguousarray(surface_points, dtype=np.float64),
+        centres,
+        radii,
+        int(np.argmax(radii)),
+        CONTENDERS,
+        chosen,
+    )
+    return chosen
