@@ -8,6 +8,8 @@ min_version("9.27")
 include: "workflow/rules/common.smk"
 include: "workflow/rules/data.smk"
 include: "workflow/rules/skeleton.smk"
+include: "workflow/rules/learning.smk"
+include: "workflow/rules/methods.smk"
 include: "workflow/rules/timing.smk"
 include: "workflow/rules/evaluation.smk"
 include: "workflow/rules/tables.smk"
@@ -23,7 +25,7 @@ localrules:
 
 rule skeletons:
     input:
-        all_skeletons(rules.select_skeleton.output[0]),
+        every_skeleton(),
 
 
 rule all:

@@ -12,7 +12,9 @@ def test_the_default_is_the_demo():
     config = compose()
     assert config.run == "demo"
     assert config.dataset.kind == "synthetic"
-    assert config.surface.names == ["poisson", "ball_pivoting", "alpha_shape"]
+    assert config.surface.names == ["poisson", "ball_pivoting", "alpha_shape", "ponq", "repaired_poisson"]
+    assert config.methods.names == ["coverage_axis", "l1_medial", "dpc", "point2skeleton"]
+    assert config.skeleton.selection == ("residue", "coverage")
 
 
 @pytest.mark.parametrize("experiment", EXPERIMENTS)
@@ -33,6 +35,14 @@ def test_an_override_beats_the_experiment():
     assert config.surface.names == ["alpha_shape"]
 
 
+def test_a_group_can_be_given_as_one_or_as_a_list():
+    alone = compose(["skeleton=ms3d", "surface=ponq", "skeleton.selection=coverage"])
+    assert (alone.methods.names, alone.surface.names, alone.skeleton.selection) == ([], ["ponq"], ("coverage",))
+    listed = compose(["skeleton=[dpc,ms3d]", "surface=[ponq]", "skeleton.selection=[coverage,residue]"])
+    assert (listed.methods.names, listed.surface.names) == (["dpc"], ["ponq"])
+    assert listed.skeleton.selection == ("coverage", "residue")
+
+
 @pytest.mark.parametrize(
     ("override", "message"),
     [
@@ -45,6 +55,17 @@ def test_an_override_beats_the_experiment():
         ("skeleton.candidates.mode=gird", r"skeleton\.candidates\.mode: .*'random' or 'grid'.*'gird'"),
         ("dataset=pont2skeleton", r"did you mean 'point2skeleton'\? Legal: class_tree, .*synthetic"),
         ("surface=[poisson,bpa]", r"surface: no such choice 'bpa'; .*ball_pivoting"),
+        ("skeleton=[ms3d,dcp]", r"skeleton: no such choice 'dcp'; did you mean 'dpc'"),
+        ("skeleton=[dpc]", r"skeleton\.k: missing"),
+        ("skeleton.selection=[residue,largest]", r"skeleton\.selection\.1: .*'residue' or 'coverage'"),
+        ("skeleton.selection=[]", r"skeleton\.selection: .*at least 1 item"),
+        ("methods.dpc.stp=1", r"methods\.dpc\.stp: no such key; did you mean 'methods\.dpc\.step'"),
+        ("methods.dpc.step=-1", r"methods\.dpc: .*step: expected a finite number that is not negative, got -1"),
+        ("methods.l1_medial.samples=1", r"methods\.l1_medial: .*samples must be from 2"),
+        ("methods.l1_medial.recentre=maybe", r"methods\.l1_medial\.recentre: .*boolean.*'maybe'.*centres of the sec"),
+        ("evaluation.equal_counts=[100,0]", r"evaluation\.equal_counts\.1: .*greater than 0, got 0"),
+        ("medial_axis.separation_angle=180", r"medial_axis\.separation_angle: .*less than 180"),
+        ("trainer.accelerator=tpu", r"trainer\.accelerator: .*'auto', 'cpu' or 'gpu'"),
         ("experiment=papr", r"did you mean 'paper'"),
         ("dataset=folder", r"dataset\.root: has no default; set it"),
         ("dataset.url=3", r"dataset\.url"),

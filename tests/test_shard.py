@@ -118,6 +118,19 @@ def test_intermediates_are_compact(reference):
         assert (reference[0] / "occupancy" / "0" / f"{shape}.npz").stat().st_size < 5000 / 8 + 2500
 
 
+def test_the_seconds_of_all_stages_add_up(reference):
+    """Each stage adds its own to those of the stages before it, once, though a stage may read several of them."""
+    folder = reference[0]
+    rows = {stage: {row.id: row for row in read_status(folder / stage / "0")} for stage in STAGES}
+    assert len(rows["reconstruct"]) == 4
+    for shape in rows["reconstruct"]:
+        total = 0.0
+        for stage in STAGES:
+            total += rows[stage][shape].seconds
+            assert rows[stage][shape].seconds_so_far == pytest.approx(total, abs=0.001 * len(STAGES))
+        assert total > 0.01
+
+
 def test_a_failing_shape_is_recorded_and_carried_on(tmp_path, sections):
     broken = dict(sections, skeleton={**sections["skeleton"], "k": "many"})
     run_chain(tmp_path, broken, shard_size=8, workers=2)
@@ -125,6 +138,8 @@ def test_a_failing_shape_is_recorded_and_carried_on(tmp_path, sections):
     assert {row.status for row in rows} == {"failed"}
     assert {(row.stage, row.attempts) for row in rows} == {("dilation", 2)}
     assert all("TypeError" in row.reason for row in rows)
+    assert rows == read_status(tmp_path / "dilation" / "0")  # carried on as they were, with the seconds until then
+    assert all(row.seconds_so_far > row.seconds for row in rows)
     assert not list((tmp_path / "select_skeleton" / "0").glob("*.ply"))
 
 

@@ -17,8 +17,8 @@ def test_a_gallery_shows_each_category_and_says_what_failed(tmp_path):
     records = [ShapeRecord(name, category, "test", 0, tmp_path, "")
                for name, category in (("a", "Ball"), ("b", "Ball"), ("c", "Broken"))]  # fmt: skip
     write_status(tmp_path, [
-        Status("a", "Ball", "ok", "select_skeleton", "", 1, 0.1, ""),
-        Status("c", "Broken", "failed", "udf", "boom", 2, 0.1, ""),
+        Status("a", "Ball", "ok", "select_skeleton", "", 1, 0.1, 0.2, ""),
+        Status("c", "Broken", "failed", "udf", "boom", 2, 0.1, 0.2, ""),
     ])  # fmt: skip
     write_skeleton_ply(tmp_path / "a.ply", Skeleton([[0.0, 0, 0]], [0.5], [0.0]))
     write_mesh_ply(tmp_path / "meshes" / "a.ply", ball(subdivisions=2))

@@ -24,7 +24,7 @@ def evaluated(tmp_path):
     for folder, record, reason in zip(folders, records, ["", "no surface"], strict=True):
         folder.mkdir()
         state = "failed" if reason else "ok"
-        write_status(folder, [Status(record.id, record.category, state, "reconstruct", reason, 1, 0.1, "")])
+        write_status(folder, [Status(record.id, record.category, state, "reconstruct", reason, 1, 0.1, 0.1, "")])
     write_skeleton_ply(folders[0] / f"{records[0].id}.ply", Skeleton(np.zeros((1, 3)), [0.5], [0.0]))
     arguments = {"split": records[0].split, "dataset": section, "seed": 1, "surface": "poisson"}
     return tmp_path / "manifest.csv", folders, arguments

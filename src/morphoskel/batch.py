@@ -6,9 +6,11 @@ import logging
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from morphoskel.config import Config
 from morphoskel.errors import ConfigError, InputError, MorphoSkelError
+from morphoskel.methods import MORPHOLOGICAL, SURFACE_METHODS, check_method
 
 logger = logging.getLogger(__name__)
 
@@ -22,7 +24,15 @@ class BatchResult:
 
 
 def skeletonize_files(
-    inputs: Sequence[Path], folder: Path, config: Config, *, surface: str, plot: bool = False, progress: bool = True
+    inputs: Sequence[Path],
+    folder: Path,
+    config: Config,
+    *,
+    method: str,
+    surface: str,
+    network: Path | None = None,
+    plot: bool = False,
+    progress: bool = True,
 ) -> BatchResult:
     """Write ``{name}.ply`` and ``{name}.npz``, and with `plot` ``{name}.png``, for every input.
 
@@ -35,9 +45,13 @@ def skeletonize_files(
     folder
         Where to write.
     config
-        Composed configuration: surface, watertight, skeleton and seed are used.
+        Composed configuration: surface, watertight, skeleton, methods and seed are used.
+    method
+        The skeleton method.
     surface
-        Which of the configured reconstructions rebuilds the surface of a cloud.
+        Which of the configured reconstructions rebuilds the surface of a cloud, for a method that needs one.
+    network
+        File with a trained network, for ``point2skeleton``.
     plot
         Draw a picture of each skeleton.
     progress
@@ -51,19 +65,21 @@ def skeletonize_files(
     Raises
     ------
     InputError
-        If there is no input, or two inputs would be written to the same name.
+        If there is no input, two inputs would be written to the same name, or there is no such network.
     ConfigError
-        If the reconstruction is not configured.
+        If the method or the reconstruction is not configured, or a network is missing or not needed.
     """
     from tqdm import tqdm
 
-    if surface not in config.surface.names:
-        raise ConfigError(f"surface {surface!r} is not configured; configured are {', '.join(config.surface.names)}")
+    from morphoskel.run_method import check_network
+
+    arguments = arguments_of(config, method, surface)
+    check_network(method, network)
     files = name_outputs(inputs)
     result = BatchResult([], {})
     for name, path in tqdm(files.items(), unit="shape", disable=not progress):
         try:
-            result.written.extend(_skeletonize_file(path, name, folder, config, surface=surface, plot=plot))
+            result.written.extend(_skeletonize_file(path, name, folder, {**arguments, "network": network}, plot=plot))
         except MorphoSkelError as error:
             result.failures[path] = str(error)
     return result
@@ -101,21 +117,57 @@ def name_outputs(inputs: Sequence[Path]) -> dict[str, Path]:
     return named
 
 
-def _skeletonize_file(path: Path, name: str, folder: Path, config: Config, *, surface: str, plot: bool) -> list[Path]:
+def arguments_of(config: Config, method: str, surface: str) -> dict[str, Any]:
+    """Return the arguments of :func:`~morphoskel.skeletonization.skeletonize_shape` that a configuration gives.
+
+    Raises
+    ------
+    ConfigError
+        If the method or the reconstruction is not configured.
+    """
+    check_method(method)
+    arguments: dict[str, Any] = {
+        "method": method,
+        "candidates": config.skeleton.candidates.model_dump(),
+        "k": config.skeleton.k,
+        "points": config.skeleton.points,
+        "seed": config.seed,
+        "watertight_settings": config.watertight.model_dump(),
+    }
+    if method in SURFACE_METHODS:
+        if surface not in config.surface.names:
+            raise ConfigError(
+                f"surface {surface!r} is not configured; configured are {', '.join(config.surface.names)}. Choose one "
+                "of them, or add it to the group, for example surface=[poisson,repaired_poisson]"
+            )
+        arguments |= {"surface": surface, "reconstruction": getattr(config.surface, surface).model_dump()}
+    if method in MORPHOLOGICAL:
+        settings = config.skeleton.coverage.model_dump() if method == "ms3d_coverage" else {}
+    else:
+        settings = _other_method(config, method)
+        arguments["points"] = settings.pop("points", config.skeleton.points)
+    return {**arguments, "settings": settings}
+
+
+def _other_method(config: Config, method: str) -> dict[str, Any]:
+    section = getattr(config.methods, method)
+    if section is None:
+        configured = ", ".join([*MORPHOLOGICAL, *config.methods.names])
+        raise ConfigError(
+            f"method {method!r} is not configured; configured are {configured}. Choose one of them, or add it to the "
+            f"group, for example skeleton=[ms3d,{method}]"
+        )
+    if method == "point2skeleton":
+        return {"refine_radii": section.refine_radii}  # all else is in the network's file
+    settings: dict[str, Any] = section.model_dump()
+    return settings
+
+
+def _skeletonize_file(path: Path, name: str, folder: Path, arguments: dict[str, Any], *, plot: bool) -> list[Path]:
     from morphoskel.formats import read_shape, write_skeleton_npz, write_skeleton_ply
     from morphoskel.skeletonization import skeletonize_shape
 
-    result = skeletonize_shape(
-        read_shape(path),
-        surface=surface,
-        reconstruction=getattr(config.surface, surface).model_dump(),
-        watertight_settings=config.watertight.model_dump(),
-        candidates=config.skeleton.candidates.model_dump(),
-        k=config.skeleton.k,
-        points=config.skeleton.points,
-        seed=config.seed,
-        name=name,
-    )
+    result = skeletonize_shape(read_shape(path), name=name, **arguments)
     folder.mkdir(parents=True, exist_ok=True)
     written = [folder / f"{name}.ply", folder / f"{name}.npz"]
     write_skeleton_ply(written[0], result.skeleton)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from morphoskel import __version__
 from morphoskel.errors import MorphoSkelError
+from morphoskel.methods import METHODS
 
 logger = logging.getLogger("morphoskel")
 
@@ -27,7 +28,28 @@ examples:
 SKELETONIZE_EXAMPLES = """\
 examples:
   morphoskel skeletonize dragon.ply -o out --plot
-  morphoskel skeletonize clouds/ -o out --surface alpha_shape skeleton.candidates.count=10000000
+  morphoskel skeletonize clouds/ -o out skeleton.points=200 skeleton.candidates.count=10000000
+the paper's method, and other surfaces for it:
+  morphoskel skeletonize clouds/ -o out --method ms3d --surface poisson
+  morphoskel skeletonize clouds/ -o out --method ms3d --surface alpha_shape skeleton.k=30
+other methods, and one setting of each:
+  morphoskel skeletonize clouds/ -o out --method coverage_axis methods.coverage_axis.points=100
+  morphoskel skeletonize clouds/ -o out --method l1_medial methods.l1_medial.samples=500
+  morphoskel skeletonize clouds/ -o out --method dpc methods.dpc.samples=1000
+  morphoskel skeletonize clouds/ -o out --method point2skeleton --network network.pt
+
+methods inside a closed surface, which --surface rebuilds from a cloud:
+  ms3d_coverage   maximal balls that together explain the surface (our own selection)
+  ms3d            maximal balls of smallest residue: the paper's, with --surface poisson
+  coverage_axis   Coverage Axis++
+methods on the cloud alone:
+  l1_medial       L1-medial skeleton: curves
+  dpc             deep points consolidation
+  point2skeleton  a network, trained with: morphoskel run train_point2skeleton dataset=NAME run=RUN
+                  it is written to results/RUN/networks/NAME/point2skeleton/network.pt
+surfaces: poisson, ball_pivoting, alpha_shape, ponq, repaired_poisson (mended where it contradicts the cloud)
+
+`morphoskel config` prints all settings.
 """
 
 CONFIG_EXAMPLES = """\
@@ -76,8 +98,12 @@ def _parser() -> argparse.ArgumentParser:
                SKELETONIZE_EXAMPLES)  # fmt: skip
     one.add_argument("words", nargs="+", metavar="INPUT | key=value", help="files or folders, and overrides")
     one.add_argument("-o", "--output", type=Path, required=True, metavar="DIR", help="folder to write to")
-    one.add_argument("--surface", default="poisson", help="how a cloud's surface is rebuilt (default: %(default)s)")
-    one.add_argument("--plot", action="store_true", help="also draw the balls inside the surface, as PNG")
+    one.add_argument("--method", default="ms3d_coverage", choices=METHODS, metavar="NAME",
+                     help="the skeleton method (default: %(default)s; the paper's: ms3d)")  # fmt: skip
+    one.add_argument("--surface", default="repaired_poisson", metavar="NAME",
+                     help="how a cloud's surface is rebuilt (default: %(default)s; the paper's: poisson)")  # fmt: skip
+    one.add_argument("--network", type=Path, metavar="PATH", help="file with a trained network, for point2skeleton")
+    one.add_argument("--plot", action="store_true", help="also draw the balls, inside the surface if any, as PNG")
     config = _add(commands, "config", "print the configuration that the overrides give", CONFIG_EXAMPLES)
     config.add_argument("words", nargs="*", metavar="key=value", help="overrides")
     return parser
@@ -113,7 +139,15 @@ def _skeletonize(parsed: argparse.Namespace) -> int:
 
     config = compose([word for word in parsed.words if _is_override(word)])
     inputs = [Path(word) for word in parsed.words if not _is_override(word)]
-    result = skeletonize_files(inputs, parsed.output, config, surface=parsed.surface, plot=parsed.plot)
+    result = skeletonize_files(
+        inputs,
+        parsed.output,
+        config,
+        method=parsed.method,
+        surface=parsed.surface,
+        network=parsed.network,
+        plot=parsed.plot,
+    )
     for path in result.written:
         logger.info("wrote %s", path)
     for path, reason in result.failures.items():

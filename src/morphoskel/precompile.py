@@ -16,17 +16,40 @@ logger = logging.getLogger(__name__)
 
 def precompile() -> None:
     """Run every kernel once on a small shape; the compiler keeps the machine code on disk."""
+    from morphoskel.formats.sample import sample_surface
     from morphoskel.morphology import opening
+    from morphoskel.run_method import skeleton_inside
     from morphoskel.shapes import Mesh
-    from morphoskel.skeleton import ms3d
+    from morphoskel.skeleton.medial_axis import medial_axis_of_mesh
     from morphoskel.volume import Candidates
 
     corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     tetrahedron = Mesh(corners, np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]))
+    generator = np.random.default_rng(0)
+    samples = sample_surface(tetrahedron, 200, generator).points
     import_module("morphoskel.chain.compiler")
-    for mode in ("random", "grid"):
-        skeleton = ms3d(tetrahedron, Candidates(np.zeros(3), np.ones(3), 1000, mode))
+    for method, mode, settings in (
+        ("ms3d", "random", {}),
+        ("ms3d", "grid", {}),
+        ("ms3d_coverage", "random", {"touch": 5.0}),
+        ("coverage_axis", "random", {"penalty": "standardised"}),
+    ):
+        candidates = Candidates(np.zeros(3), np.ones(3), 1000, mode)  # type: ignore[arg-type]
+        skeleton = skeleton_inside(method, tetrahedron, candidates, samples, k=20, points=16, settings=settings)
     opening(skeleton.points.astype(np.float32), skeleton.radii.astype(np.float32))
+    medial_axis_of_mesh(tetrahedron, generator, samples=500, separation_angle=0.0, scale=0.0)
+    _skeletonize_ball(generator)
+
+
+def _skeletonize_ball(generator: np.random.Generator) -> None:
+    """Run the methods that read the cloud alone; a network has no kernels."""
+    from morphoskel.run_method import skeleton_of_cloud
+    from morphoskel.shapes import PointCloud
+
+    directions = generator.normal(size=(100, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    for method in ("l1_medial", "dpc"):
+        skeleton_of_cloud(method, PointCloud(directions, normals=directions), generator, settings={})
 
 
 if __name__ == "__main__":

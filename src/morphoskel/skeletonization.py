@@ -4,57 +4,80 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from morphoskel.cores import available_cores
-from morphoskel.errors import InputError
-from morphoskel.seeds import derive_seed
+from morphoskel.errors import ConfigError, InputError
+from morphoskel.methods import CLOUD_METHODS, check_method
+from morphoskel.seeds import derive_generator, derive_seed
 from morphoskel.shapes import FloatArray, Mesh, PointCloud, Skeleton
 
 DEFAULT_SEED = 20250325
 
+COVERED_SAMPLES = 8192
+"""Points on a mesh for the methods that choose balls to cover it: as many as the coverage selection looks at."""
+
+CLOUD_SAMPLES = 2000
+"""Points on a mesh for the methods that read a cloud alone: the size of the clouds that the paper compares them on,
+which the default settings suit."""
+
 
 @dataclass(frozen=True, eq=False)
 class SkeletonizedShape:
-    """A skeleton and the closed surface that it was found in."""
+    """A skeleton and the closed surface that it was found in; ``None`` from a method that reads the cloud alone."""
 
     skeleton: Skeleton
-    surface: Mesh
+    surface: Mesh | None
 
 
 def skeletonize(
     shape: PointCloud | Mesh | npt.ArrayLike,
     *,
+    method: str = "ms3d_coverage",
+    surface: str = "repaired_poisson",
     normals: FloatArray | None = None,
-    surface: str = "poisson",
     candidates: int = 1_000_000,
     mode: Literal["random", "grid"] = "random",
     k: int = 20,
     points: int = 1024,
+    settings: Mapping[str, Any] | None = None,
+    network: Path | str | None = None,
     seed: int = DEFAULT_SEED,
     threads: int = 0,
 ) -> Skeleton:
-    """Return the morphological skeleton of a cloud or a mesh.
+    """Return the skeleton of a cloud or a mesh.
+
+    The defaults give the best balls; the paper's method is ``method="ms3d", surface="poisson"``.
 
     Parameters
     ----------
     shape
         A :class:`PointCloud`, a :class:`Mesh` (open or closed), or an ``(N, 3)`` array of points.
+    method
+        Inside a closed surface: ``ms3d``, maximal balls of smallest residue; ``ms3d_coverage``, maximal balls that
+        together explain the surface; ``coverage_axis``, Coverage Axis++. On the cloud alone: ``l1_medial``, the
+        L1-medial skeleton; ``dpc``, deep points consolidation; ``point2skeleton``, a trained network.
+    surface
+        How a cloud's surface is rebuilt, for a method that needs one: ``poisson``, ``ball_pivoting``,
+        ``alpha_shape``, ``ponq``, or ``repaired_poisson``, which mends what contradicts the cloud.
     normals
         ``(N, 3)`` outward normals, where `shape` is an array and they are known.
-    surface
-        How a cloud's surface is rebuilt: ``poisson``, ``ball_pivoting`` or ``alpha_shape``.
     candidates
-        Points scattered in the bounding box; the paper uses 10 million.
+        Points scattered in the bounding box of the surface; the paper uses 10 million.
     mode
         ``random`` or ``grid``.
     k
-        Size of the structuring element, the point itself included.
+        Size of the structuring element of ``ms3d`` and ``ms3d_coverage``, the point itself included.
     points
-        Maximal balls kept.
+        Balls kept inside a surface. The methods on the cloud alone find their own number.
+    settings
+        Other settings of the method, see its function in :mod:`morphoskel.skeleton`.
+    network
+        File with a trained network, for ``point2skeleton``.
     seed
         The same seed gives the same skeleton, bit for bit.
     threads
@@ -63,14 +86,17 @@ def skeletonize(
     Returns
     -------
     Skeleton
-        Centres, radii and residues, smallest residue first, in the shape's unit.
+        Centres and radii in the shape's unit, best first where the method ranks them; residues of maximal balls;
+        edges and triangles where the method joins its centres.
 
     Raises
     ------
     InputError
         If the input is no cloud and no mesh.
+    ConfigError
+        If a name or a setting is not legal, or the network is missing.
     ShapeError
-        If no surface can be rebuilt or nothing lies inside it.
+        If no surface can be rebuilt, nothing lies inside it, or the method finds no skeleton.
 
     Examples
     --------
@@ -86,10 +112,13 @@ def skeletonize(
         raise InputError("normals: give them inside the point cloud; they are read only beside an array of points")
     return skeletonize_shape(
         shape,
+        method=method,
         surface=surface,
         candidates={"mode": mode, "count": candidates},
         k=k,
         points=points,
+        settings=settings,
+        network=network,
         seed=seed,
         threads=threads,
     ).skeleton
@@ -98,22 +127,28 @@ def skeletonize(
 def skeletonize_shape(
     shape: PointCloud | Mesh,
     *,
+    method: str = "ms3d",
     surface: str = "poisson",
     reconstruction: Mapping[str, Any] | None = None,
     watertight_settings: Mapping[str, Any] | None = None,
     candidates: Mapping[str, Any],
     k: int,
     points: int,
+    settings: Mapping[str, Any] | None = None,
+    network: Path | str | None = None,
     seed: int,
     name: str = "shape",
     threads: int = 0,
 ) -> SkeletonizedShape:
-    """Run the whole chain on one shape, with the configuration's sections as settings.
+    """Run the whole chain on one shape, with the configuration's sections as settings; by default the paper's.
 
     Parameters
     ----------
     shape
-        A mesh is closed; a cloud's surface is rebuilt first.
+        A mesh is closed; a cloud's surface is rebuilt first, where the method needs one. Where a method needs a
+        cloud, a mesh is sampled uniformly by area.
+    method, settings
+        Name and settings of the skeleton method.
     surface, reconstruction
         Name and settings of the reconstruction.
     watertight_settings
@@ -121,7 +156,9 @@ def skeletonize_shape(
     candidates
         ``mode`` and ``count``.
     k, points
-        Size of the structuring element; maximal balls kept.
+        Size of the structuring element; balls kept.
+    network
+        File with a trained network.
     seed, name
         Global seed and the shape's id, from which the stages' seeds are derived as in the workflow.
     threads
@@ -134,17 +171,62 @@ def skeletonize_shape(
 
     Raises
     ------
+    ConfigError
+        If a name or a setting is not legal, or the network is missing.
     ShapeError
-        If no surface can be rebuilt or nothing lies inside it.
+        If no surface can be rebuilt, nothing lies inside it, or the method finds no skeleton.
     """
-    from morphoskel.skeleton import ms3d
+    from morphoskel.run_method import check_network, check_settings, skeleton_inside, skeleton_of_cloud
     from morphoskel.surface import reconstruct, watertight
     from morphoskel.volume import Candidates
 
-    mesh = shape if isinstance(shape, Mesh) else reconstruct(shape, surface, **(reconstruction or {}))
+    check_method(method)
+    settings = _complete(method, settings or {})
+    check_settings(method, settings)
+    check_network(method, network)
+    if method in CLOUD_METHODS:
+        cloud = _sample(shape, CLOUD_SAMPLES, seed, name)
+        generator = derive_generator(seed, name, method)
+        return SkeletonizedShape(skeleton_of_cloud(method, cloud, generator, settings=settings, network=network), None)
+    _check_volume_settings(candidates, k, points)
+    mesh = shape
+    if isinstance(mesh, PointCloud):
+        mesh = reconstruct(mesh, surface, seed=derive_seed(seed, name, "reconstruct"), **(reconstruction or {}))
     closed = watertight(mesh, seed=derive_seed(seed, name, "watertight"), **(watertight_settings or {}))
-    box = Candidates(*closed.bounds, **candidates, seed=derive_seed(seed, name, "occupancy"))
-    return SkeletonizedShape(ms3d(closed, box, k=k, points=points, threads=threads or available_cores()), closed)
+    skeleton = skeleton_inside(
+        method,
+        closed,
+        Candidates(*closed.bounds, **candidates, seed=derive_seed(seed, name, "occupancy")),
+        None if method == "ms3d" else _sample(shape, COVERED_SAMPLES, seed, name).points,
+        k=k,
+        points=points,
+        settings=settings,
+        threads=threads or available_cores(),
+    )
+    return SkeletonizedShape(skeleton, closed)
+
+
+def _complete(method: str, settings: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Let Coverage Axis++ choose as many balls as are asked for, as the configuration does, unless told otherwise."""
+    return {"stop_when_covered": False, **settings} if method == "coverage_axis" else settings
+
+
+def _check_volume_settings(candidates: Mapping[str, Any], k: int, points: int) -> None:
+    """Refuse what the configuration would refuse."""
+    if candidates["mode"] not in ("random", "grid"):
+        raise ConfigError(f"mode: expected random or grid, got {candidates['mode']!r}")
+    for name, value, least in (("candidates", candidates["count"], 8), ("k", k, 2), ("points", points, 1)):
+        if value < least:
+            raise ConfigError(f"{name}: expected a whole number from {least}, got {value}")
+
+
+def _sample(shape: PointCloud | Mesh, samples: int, seed: int, name: str) -> PointCloud:
+    """Return a cloud as it is, and points on a mesh."""
+    from morphoskel.formats.sample import sample_surface
+
+    if isinstance(shape, PointCloud):
+        return shape
+    return sample_surface(shape, samples, derive_generator(seed, name, "sample"))
 
 
 def _as_points(array: npt.ArrayLike) -> FloatArray:

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from morphoskel.config import compose
 from morphoskel.datasets.configured import count_shapes
+from morphoskel.methods import CLOUD_METHODS
 from morphoskel.provenance import code_digest, content_hash, remember_digests
 
 # The scripts import the library from this clone, also inside an environment that Snakemake deploys.
@@ -15,6 +16,9 @@ CONFIG = compose(config.get("overrides", []), Path(workflow.basedir) / "config")
 SECTIONS = CONFIG.model_dump(mode="json")
 SHAPES = count_shapes(SECTIONS["dataset"], seed=CONFIG.seed)
 
+# What stands in the place of a surface reconstruction for methods that work on the cloud itself.
+CLOUD = "cloud"
+
 
 pathvars:
     results=f"results/{CONFIG.run}",
@@ -25,7 +29,8 @@ pathvars:
 wildcard_constraints:
     dataset=CONFIG.dataset.name,
     split="|".join(SHAPES),
-    surface="|".join(CONFIG.surface.names),
+    surface="|".join([*CONFIG.surface.names, CLOUD]),
+    skeleton="[a-z0-9_]+",
     shard=r"\d{5}",
 
 
@@ -59,37 +64,106 @@ MEMORY = 600 + CONFIG.cores * (400 + CONFIG.skeleton.candidates.count * 60 // 1_
 MINUTES = 10 + CONFIG.shard_size * (1 + CONFIG.skeleton.candidates.count // 10_000_000)
 
 
-def skeleton_shards(wildcards):
-    """Return the skeleton folders of one split and surface."""
-    return expand(
-        rules.select_skeleton.output[0],
-        shard=shards(wildcards.split),
-        allow_missing=True,
-    )
+# Written out where params need them, in which Snakemake does not replace <results>.
+RESULTS = f"results/{CONFIG.run}"
+SKELETONS = RESULTS + "/skeletons/{dataset}/{split}/{surface}/{skeleton}/{shard}"
+AXES = RESULTS + "/medial_axis/{dataset}/{split}/{shard}"
+EVALUATION = RESULTS + "/evaluation/{dataset}/{split}/{surface}/{skeleton}.csv"
 
 
-def evaluated_shards(pattern, surface):
-    """Return the folders of the evaluated split under one surface reconstruction."""
+def skeleton_methods():
+    """Return (surface, method) of every skeleton that is compared, in the order of the tables."""
+    selections = {"residue": "ms3d", "coverage": "ms3d_coverage"}
+    chosen = [selections[name] for name in CONFIG.skeleton.selection]
+    others = CONFIG.methods.names
+    if "point2skeleton" in others and not can_have_network():
+        others.remove("point2skeleton")
+    on_surfaces = [*chosen, *(["coverage_axis"] if "coverage_axis" in others else [])]
+    compared = [(CLOUD, method) for method in CLOUD_METHODS if method in others]
+    for surface in CONFIG.surface.names:
+        if surface in ("poisson", "repaired_poisson"):
+            compared += [(surface, method) for method in on_surfaces]
+    return compared
+
+
+def surface_methods():
+    """Return (surface, method) of every surface reconstruction that is compared, and of Point2Skeleton beside them."""
+    compared = [
+        (surface, "ms3d")
+        for surface in CONFIG.surface.names
+        if "residue" in CONFIG.skeleton.selection
+    ]
+    return compared + [
+        pair for pair in skeleton_methods() if pair == (CLOUD, "point2skeleton")
+    ]
+
+
+def can_have_network():
+    """Tell whether Point2Skeleton is trained already or can be."""
+    return bool(CONFIG.methods.point2skeleton.trained) or SHAPES.get("train", 0) > 1
+
+
+def of_shards(pattern, split, **wildcards):
+    """Return the folders of all shards of a split."""
     return expand(
         pattern,
         dataset=CONFIG.dataset.name,
-        split=CONFIG.evaluation.split,
-        surface=surface,
-        shard=shards(CONFIG.evaluation.split),
+        split=split,
+        shard=shards(split),
+        **wildcards,
     )
 
 
-def all_skeletons(pattern):
-    """Return the folders of every split and surface reconstruction."""
+def skeleton_shards(wildcards):
+    """Return the skeleton folders of one split, surface and method."""
+    return of_shards(
+        SKELETONS,
+        wildcards.split,
+        surface=wildcards.surface,
+        skeleton=wildcards.skeleton,
+    )
+
+
+def axis_shards(wildcards):
+    """Return the folders of reference axes of one split, if there are any."""
+    known = (
+        CONFIG.medial_axis.folder or CONFIG.medial_axis.surface in CONFIG.surface.names
+    )
+    return of_shards(AXES, wildcards.split) if known else []
+
+
+def evaluated_balls(wildcards):
+    """Return which balls of a method's skeletons are evaluated."""
+    dense = (
+        CONFIG.methods.point2skeleton.dense_balls
+        if wildcards.skeleton == "point2skeleton"
+        else None
+    )
+    return {"equal_counts": list(CONFIG.evaluation.equal_counts), "dense": dense}
+
+
+def every_skeleton():
+    """Return the skeleton folders of every split, surface reconstruction and method."""
+    pairs = dict.fromkeys([*skeleton_methods(), *surface_methods()])
     return [
         folder
         for split in SHAPES
-        for folder in expand(
-            pattern,
+        for surface, method in pairs
+        for folder in of_shards(SKELETONS, split, surface=surface, skeleton=method)
+    ]
+
+
+def evaluations(pairs):
+    """Return the result files of the evaluated split for each (surface, method)."""
+    return [
+        path
+        for surface, method in pairs
+        for path in expand(
+            EVALUATION,
             dataset=CONFIG.dataset.name,
-            split=split,
-            surface=CONFIG.surface.names,
-            shard=shards(split),
+            split=CONFIG.evaluation.split,
+            surface=surface,
+            skeleton=method,
         )
     ]
 
@@ -108,17 +182,6 @@ def dataset_source(wildcards):
     return []
 
 
-def of_every_surface(kind):
-    """Return the result files of the evaluated split, one for each surface reconstruction."""
-    return expand(
-        "<results>/{kind}/{dataset}/{split}/{surface}.csv",
-        kind=kind,
-        dataset=CONFIG.dataset.name,
-        split=CONFIG.evaluation.split,
-        surface=CONFIG.surface.names,
-    )
-
-
 def provenance():
     """Return what a table's caption has to tell of its origin."""
     return {
@@ -126,5 +189,6 @@ def provenance():
         "protocol": CONFIG.protocol,
         "seed": CONFIG.seed,
         "candidates": f"{CONFIG.skeleton.candidates.count:,} {CONFIG.skeleton.candidates.mode}",
+        "medial_axis": "given" if CONFIG.medial_axis.folder else "computed",
         "config": content_hash(SECTIONS),
     }

@@ -1,6 +1,17 @@
 # Pictures.
 
 
+def gallery_skeletons():
+    """Return the skeleton folders of the evaluated split by surface and method, joined with a slash."""
+    pairs = dict.fromkeys([*skeleton_methods(), *surface_methods()])
+    return {
+        f"{surface}/{method}": of_shards(
+            SKELETONS, CONFIG.evaluation.split, surface=surface, skeleton=method
+        )
+        for surface, method in pairs
+    }
+
+
 rule figure_contact_sheet:
     input:
         manifest="resources/manifest/{dataset}.csv".format(dataset=CONFIG.dataset.name),
@@ -29,10 +40,14 @@ rule figure_contact_sheet:
 rule figure_skeletons:
     input:
         manifest="resources/manifest/{dataset}.csv".format(dataset=CONFIG.dataset.name),
-        meshes=evaluated_shards(rules.watertight.output[0], CONFIG.surface.names),
-        skeletons=evaluated_shards(
-            rules.select_skeleton.output[0], CONFIG.surface.names
+        meshes=of_shards(
+            rules.watertight.output[0],
+            CONFIG.evaluation.split,
+            surface=CONFIG.surface.names,
         ),
+        skeletons=[
+            folder for folders in gallery_skeletons().values() for folder in folders
+        ],
     output:
         report(
             "<results>/figures/skeletons.png",
@@ -48,13 +63,12 @@ rule figure_skeletons:
         runtime=30,
     params:
         meshes={
-            name: evaluated_shards(rules.watertight.output[0], name)
+            name: of_shards(
+                rules.watertight.output[0], CONFIG.evaluation.split, surface=name
+            )
             for name in CONFIG.surface.names
         },
-        skeletons={
-            name: evaluated_shards(rules.select_skeleton.output[0], name)
-            for name in CONFIG.surface.names
-        },
+        skeletons=gallery_skeletons(),
         split=CONFIG.evaluation.split,
         digest=code_digest("reporting.skeleton_gallery"),
     script:

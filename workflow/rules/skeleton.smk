@@ -138,7 +138,7 @@ rule select_skeleton:
         udf=rules.udf.output[0],
         dilation=rules.dilation.output[0],
     output:
-        directory("<results>/skeletons/{dataset}/{split}/{surface}/{shard}"),
+        directory("<results>/skeletons/{dataset}/{split}/{surface}/ms3d/{shard}"),
     log:
         "<logs>/select_skeleton/{dataset}/{split}/{surface}/{shard}.log",
     benchmark:
@@ -155,5 +155,39 @@ rule select_skeleton:
         points=CONFIG.skeleton.points,
         seed=CONFIG.seed,
         digest=code_digest("chain.shard", "chain.select_skeleton"),
+    script:
+        "../scripts/run_stage.py"
+
+
+rule cover_skeleton:
+    input:
+        manifest="resources/manifest/{dataset}.csv",
+        occupancy=rules.occupancy.output[0],
+        udf=rules.udf.output[0],
+        dilation=rules.dilation.output[0],
+    output:
+        directory(
+            "<results>/skeletons/{dataset}/{split}/{surface}/ms3d_coverage/{shard}"
+        ),
+    log:
+        "<logs>/cover_skeleton/{dataset}/{split}/{surface}/{shard}.log",
+    benchmark:
+        "<benchmarks>/cover_skeleton/{dataset}/{split}/{surface}/{shard}.tsv"
+    conda:
+        "../../environment.yml"
+    threads: CONFIG.cores
+    resources:
+        mem_mb=MEMORY,
+        runtime=MINUTES,
+        shape_threads=CONFIG.threads,
+    params:
+        dataset=section("dataset"),
+        dataset_seed=CONFIG.seed,
+        candidates=section("skeleton", "candidates"),
+        k=CONFIG.skeleton.k,
+        points=CONFIG.skeleton.points,
+        coverage=section("skeleton", "coverage"),
+        seed=CONFIG.seed,
+        digest=code_digest("chain.shard", "chain.cover_skeleton"),
     script:
         "../scripts/run_stage.py"

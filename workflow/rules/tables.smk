@@ -3,7 +3,7 @@
 
 rule table_skeleton_reconstruction:
     input:
-        rows=of_every_surface("evaluation"),
+        rows=evaluations(skeleton_methods()),
         published=Path(workflow.basedir) / "config/paper/skeleton_reconstruction.csv",
         counts=Path(workflow.basedir) / "config/paper/processing_time.csv",
     output:
@@ -30,7 +30,7 @@ rule table_skeleton_reconstruction:
 
 rule table_surface_reconstruction:
     input:
-        rows=of_every_surface("evaluation"),
+        rows=evaluations(surface_methods()),
         published=Path(workflow.basedir)
         / "config/paper/surface_reconstruction_ablation.csv",
         counts=Path(workflow.basedir) / "config/paper/processing_time.csv",
@@ -58,7 +58,12 @@ rule table_surface_reconstruction:
 
 rule table_processing_time:
     input:
-        rows=of_every_surface("timing"),
+        rows=expand(
+            rules.time_stages.output[0],
+            dataset=CONFIG.dataset.name,
+            split=CONFIG.evaluation.split,
+            surface=CONFIG.surface.names,
+        ),
         published=Path(workflow.basedir) / "config/paper/processing_time.csv",
     output:
         csv="<results>/tables/processing_time.csv",

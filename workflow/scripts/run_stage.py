@@ -6,8 +6,10 @@ from morphoskel.chain.shard import run_shard
 from morphoskel.logs import log_to
 
 log_to(snakemake.log[0])
-inputs = {name: Path(folder) for name, folder in snakemake.input.items() if name != "manifest"}
+inputs = {name: Path(folder) for name, folder in snakemake.input.items() if name not in ("manifest", "network")}
 settings = {name: value for name, value in snakemake.params.items() if name not in ("seed", "digest")}
+if network := snakemake.input.get("network"):
+    settings["network"] = network
 run_shard(
     snakemake.rule,
     manifest=Path(snakemake.input.manifest),

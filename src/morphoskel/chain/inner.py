@@ -25,12 +25,16 @@ def write_occupancy(path: Path, occupancy: Occupancy) -> None:
 
 def read_inner_points(task: Task) -> npt.NDArray[np.float32]:
     """Return the shape's inner points, ``(M, 3)`` float32 in spatial order."""
+    candidates = read_candidates(task)
+    tiles = candidates.tiles_per_axis**3
     with np.load(task.read("occupancy", ".npz")) as stored:
-        candidates = Candidates(
-            stored["lower"], stored["upper"], **task.settings["candidates"], seed=int(stored["seed"])
-        )
-        tiles = candidates.tiles_per_axis**3
         low, high = np.unpackbits(stored["states"], count=2 * tiles).reshape(2, tiles)
         crossed_mask = np.unpackbits(stored["crossed_mask"], count=int(stored["crossed"])).astype(bool)
     states = (low | high << 1).astype(np.uint8)
     return Occupancy(candidates, states, crossed_mask).inner_points(threads=task.threads)
+
+
+def read_candidates(task: Task) -> Candidates:
+    """Return the candidates that were tested."""
+    with np.load(task.read("occupancy", ".npz")) as stored:
+        return Candidates(stored["lower"], stored["upper"], **task.settings["candidates"], seed=int(stored["seed"]))

@@ -1,7 +1,7 @@
 """Stage 1: from the cloud to a triangle mesh."""
 
+from morphoskel.chain.cloud import read_cloud
 from morphoskel.chain.task import Details, Task
-from morphoskel.datasets.configured import open_configured
 from morphoskel.formats import write_mesh_ply
 from morphoskel.surface.reconstruct import REPAIRED, reconstruct, reconstruct_repaired
 
@@ -15,7 +15,7 @@ HEAVY_IMPORTS = (
 
 def run(task: Task) -> Details:
     """Read the shape's cloud, rebuild its surface and write it as PLY."""
-    cloud = open_configured(task.settings["dataset"], seed=task.settings["dataset_seed"]).load(task.record.path)
+    cloud = read_cloud(task)
     method, settings = task.settings["surface"], task.settings["reconstruction"]
     details: Details = {"points": len(cloud)}
     if method == REPAIRED:

@@ -40,7 +40,7 @@ def run_shard(
     Parameters
     ----------
     stage
-        One of :data:`morphoskel.stages.STAGES`: a module of this package with a function ``run(task) -> Details``.
+        The name of a rule, and a module of this package with a function ``run(task) -> Details``.
         It may name ``HEAVY_IMPORTS``, libraries that are imported once and shared by all workers of the job.
     manifest
         The data set's manifest.
@@ -65,7 +65,11 @@ def run_shard(
         One a shape.
     """
     records = {record.id: record for record in read_manifest(manifest, split=split, shard=shard)}
-    rows = {row.id: row for folder in inputs.values() for row in read_status(folder) if row.status == "failed"}
+    earlier = [row for folder in inputs.values() for row in read_status(folder)]
+    rows = {row.id: row for row in earlier if row.status == "failed"}
+    before: dict[str, float] = {}
+    for row in earlier:  # each stage counts those before it, so the last one counts them all
+        before[row.id] = max(before.get(row.id, 0.0), row.seconds_so_far)
     module = importlib.import_module(f"morphoskel.chain.{stage}")
     preload = [module.__name__, *getattr(module, "HEAVY_IMPORTS", ())]
     with atomic_folder(output) as folder:
@@ -76,16 +80,26 @@ def run_shard(
             for record in waiting
         }
         for outcome in run_isolated(module.run, tasks, workers=workers, preload=preload):
-            rows[outcome.key] = _status(records[outcome.key], stage, outcome)
+            rows[outcome.key] = _status(records[outcome.key], stage, outcome, before.get(outcome.key, 0.0))
             logger.info("%d/%d %s", len(rows), len(records), _describe(rows[outcome.key]))
         write_status(folder, rows.values())
     return list(rows.values())
 
 
-def _status(record: ShapeRecord, stage: str, outcome: Outcome[Details]) -> Status:
+def _status(record: ShapeRecord, stage: str, outcome: Outcome[Details], before: float) -> Status:
     details = ";".join(f"{name}={value}" for name, value in (outcome.result or {}).items())
     status = "failed" if outcome.reason else "ok"
-    return Status(record.id, record.category, status, stage, outcome.reason, outcome.attempts, outcome.seconds, details)
+    return Status(
+        id=record.id,
+        category=record.category,
+        status=status,
+        stage=stage,
+        reason=outcome.reason,
+        attempts=outcome.attempts,
+        seconds=outcome.seconds,
+        seconds_so_far=before + outcome.seconds,
+        details=details,
+    )
 
 
 def _describe(row: Status) -> str:

@@ -28,6 +28,8 @@ class Status:
         1, or 2 if the shape was retried.
     seconds
         Wall time of the last attempt.
+    seconds_so_far
+        Together with the stages before it.
     details
         Counts that the stage records, as ``name=value`` joined by semicolons.
     """
@@ -39,6 +41,7 @@ class Status:
     reason: str
     attempts: int
     seconds: float
+    seconds_so_far: float
     details: str
 
 
@@ -48,12 +51,13 @@ def write_status(folder: Path, rows: Iterable[Status]) -> None:
         writer = csv.DictWriter(stream, [field.name for field in fields(Status)], lineterminator="\n")
         writer.writeheader()
         for row in sorted(rows, key=lambda row: row.id):
-            writer.writerow({**asdict(row), "seconds": f"{row.seconds:.3f}"})
+            times = {name: f"{getattr(row, name):.3f}" for name in ("seconds", "seconds_so_far")}
+            writer.writerow({**asdict(row), **times})
 
 
 def read_status(folder: Path) -> list[Status]:
     """Read the rows of ``status.csv`` in `folder`."""
     with (folder / FILE_NAME).open(newline="") as stream:
         rows = list(csv.DictReader(stream))
-    kinds = {"attempts": int, "seconds": float}
+    kinds = {"attempts": int, "seconds": float, "seconds_so_far": float}
     return [Status(**{name: kinds.get(name, str)(value) for name, value in row.items()}) for row in rows]

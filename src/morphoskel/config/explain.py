@@ -54,7 +54,11 @@ def explain_validation(error: ValidationError, values: Mapping[str, Any]) -> str
     """Turn pydantic's findings into one line a finding, with the key, what was found and what is legal."""
     lines = []
     for finding in error.errors():
-        location = [str(part) for part in finding["loc"] if part not in _UNION_TAGS]
+        location = [
+            str(part)
+            for place, part in enumerate(finding["loc"])
+            if not (place == 1 and finding["loc"][0] == "dataset" and part in _UNION_TAGS)
+        ]
         key = ".".join(location)
         if finding["type"] == "extra_forbidden":
             legal = _keys_beside(location)
@@ -62,7 +66,8 @@ def explain_validation(error: ValidationError, values: Mapping[str, Any]) -> str
         elif finding["type"] == "missing":
             lines.append(f"{key}: missing{_describe(location)}")
         else:
-            lines.append(f"{key}: {finding['msg']}, got {finding['input']!r}{_describe(location)}")
+            found = "" if isinstance(finding["input"], Mapping) else f", got {finding['input']!r}"
+            lines.append(f"{key}: {finding['msg']}{found}{_describe(location)}")
     return "\n".join(lines)
 
 

@@ -4,134 +4,16 @@ Unknown keys are refused everywhere. Sections are frozen; a rule receives only t
 """
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, PositiveFloat, PositiveInt
+from pydantic import BeforeValidator, Field, PositiveFloat, PositiveInt
 
-NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9_.-]*$"
-Name = Annotated[str, Field(pattern=NAME_PATTERN)]
-
-
-class Section(BaseModel):
-    """Base of all sections."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class SyntheticDataset(Section):
-    """The embedded data set."""
-
-    kind: Literal["synthetic"]
-    name: Name = Field(description="names the data set's folders and its rows in the tables")
-    root: Path = Field(description="folder that the shapes are written to")
-    categories: tuple[str, ...] | None = Field(description="categories to make; null: all 17")
-    per_category: dict[Name, PositiveInt] = Field(description="shapes a category, for each split")
-    points: Annotated[int, Field(ge=4)] = Field(description="points a cloud")
-
-
-class Point2SkeletonDataset(Section):
-    """The ShapeNet subset of Point2Skeleton."""
-
-    kind: Literal["point2skeleton"]
-    name: Name = Field(description="names the data set's folders and its rows in the tables")
-    root: Path = Field(description="folder with pointclouds/ and data-split/")
-    categories: tuple[str, ...] | None = Field(description="categories to use; null: all")
-    counts: dict[str, PositiveInt] = Field(description="published number of shapes of each split, for planning")
-
-
-class ModelNet40Dataset(Section):
-    """ModelNet40, normal_resampled."""
-
-    kind: Literal["modelnet40"]
-    name: Name = Field(description="names the data set's folders and its rows in the tables")
-    root: Path = Field(description="folder with modelnet40_train.txt and one folder a class")
-    categories: tuple[str, ...] | None = Field(description="classes to use; null: all")
-    points: Annotated[int, Field(ge=4)] | None = Field(description="read the first so many points; null: all")
-    counts: dict[str, PositiveInt] = Field(description="published number of shapes of each split, for planning")
-    url: str | None = Field(description="address of the public archive, or null")
-    sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] | None = Field(description="checksum of the archive")
-
-
-class ShapeNetPartDataset(Section):
-    """ShapeNetPart in either published layout."""
-
-    kind: Literal["shapenetpart"]
-    name: Name = Field(description="names the data set's folders and its rows in the tables")
-    root: Path = Field(description="folder with synsetoffset2category.txt and one folder a category")
-    categories: tuple[str, ...] | None = Field(description="categories to use; null: all")
-    allow_missing: bool = Field(description="leave out, and count, listed shapes that the folder lacks")
-    counts: dict[str, PositiveInt] = Field(description="published number of shapes of each split, for planning")
-    url: str | None = Field(description="address of the public archive, or null")
-    sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] | None = Field(description="checksum of the archive")
-
-
-class ClassTreeDataset(Section):
-    """A tree of classes, splits and files."""
-
-    kind: Literal["class_tree"]
-    name: Name = Field(description="names the data set's folders and its rows in the tables")
-    root: Path = Field(description="folder with <class>/{train,test}/<file>")
-    categories: tuple[str, ...] | None = Field(description="classes to use; null: all")
-    points: Annotated[int, Field(ge=4)] = Field(description="points sampled on each mesh")
-
-
-class FolderDataset(Section):
-    """A user's own files."""
-
-    kind: Literal["folder"]
-    name: Name = Field(description="names the data set's folders and its rows in the tables")
-    root: Path = Field(description="folder with clouds or meshes")
-    points: Annotated[int, Field(ge=4)] = Field(description="points sampled on each mesh")
-
-
-Dataset = Annotated[
-    SyntheticDataset
-    | Point2SkeletonDataset
-    | ModelNet40Dataset
-    | ShapeNetPartDataset
-    | ClassTreeDataset
-    | FolderDataset,
-    Field(discriminator="kind"),
-]
-
-
-class Poisson(Section):
-    """Screened Poisson reconstruction."""
-
-    depth: Annotated[int, Field(ge=5, le=12)] = Field(
-        description="octree depth, 5 to 12; Open3D's solver is unreliable below 5"
-    )
-
-
-class BallPivoting(Section):
-    """Ball pivoting."""
-
-    radius_factors: tuple[PositiveFloat, ...] = Field(
-        min_length=1, description="ball radii in units of the mean nearest-neighbour distance"
-    )
-    maximum_triangles: PositiveInt = Field(description="larger meshes are decimated to this many triangles")
-
-
-class AlphaShape(Section):
-    """Alpha shape."""
-
-    alpha: PositiveFloat = Field(description="radius of the carving ball, in the unit that `unit` names")
-    unit: Literal["radius", "absolute"] = Field(
-        description="radius: relative to the cloud's largest distance from its box's centre; absolute: as released"
-    )
-
-
-class Surface(Section):
-    """The surface reconstructions to run; each is one value of the `surface` axis."""
-
-    poisson: Poisson | None = Field(default=None, description="screened Poisson reconstruction")
-    ball_pivoting: BallPivoting | None = Field(default=None, description="ball pivoting")
-    alpha_shape: AlphaShape | None = Field(default=None, description="alpha shape")
-
-    @property
-    def names(self) -> list[str]:
-        """Names of the reconstructions that are configured."""
-        return [name for name in type(self).model_fields if getattr(self, name) is not None]
+from morphoskel.config.dataset_sections import Dataset, Name
+from morphoskel.config.sections import Section, section_of
+from morphoskel.config.surface_sections import Surface
+from morphoskel.networks.point2skeleton_settings import Point2SkeletonSettings
+from morphoskel.skeleton.dpc.settings import DeepPointsSettings
+from morphoskel.skeleton.l1_medial.settings import L1MedialSettings
 
 
 class Watertight(Section):
@@ -147,19 +29,107 @@ class Candidates(Section):
     count: Annotated[int, Field(ge=8)] = Field(description="number of points in the box before the inside test")
 
 
+class Coverage(Section):
+    """The coverage selection."""
+
+    nominees: PositiveInt = Field(description="candidates that each point of the cloud nominates")
+    touch: PositiveFloat = Field(
+        description="largest gap between a ball and the cloud, in mean distances of neighbouring points"
+    )
+
+
+def _as_tuple(value: Any) -> Any:
+    return (value,) if isinstance(value, str) else value
+
+
 class Skeleton(Section):
     """MorphoSkel3D."""
 
     candidates: Candidates
     k: Annotated[int, Field(ge=2)] = Field(description="size of the structuring element, the point itself included")
     points: PositiveInt = Field(description="number of maximal balls kept")
-    selection: Literal["residue"] = Field(description="rule that picks the maximal balls")
+    selection: Annotated[tuple[Literal["residue", "coverage"], ...], BeforeValidator(_as_tuple)] = Field(
+        min_length=1, description="rules that pick the maximal balls; each is a row of the tables"
+    )
+    coverage: Coverage
+
+
+class CoverageAxis(Section):
+    """Coverage Axis++."""
+
+    points: PositiveInt = Field(description="balls chosen")
+    offset: PositiveFloat = Field(description="growth of a ball when it covers points; longest side of the box = 1")
+    penalty: Literal["demo", "standardised"] = Field(description="how small balls are penalised")
+    candidate_limit: PositiveInt | None = Field(description="inner points used, evenly by index; null: all")
+    stop_when_covered: bool = Field(description="stop as soon as all points are covered")
+
+
+Network: Any = section_of(Point2SkeletonSettings)
+
+
+class Point2Skeleton(Section):
+    """Point2Skeleton."""
+
+    trained: Path | None = Field(description="a trained network's file; null: train one on the training split")
+    validation_share: Annotated[float, Field(gt=0, lt=1)] = Field(
+        description="share of the training shapes held out to choose the epoch"
+    )
+    dense_balls: PositiveInt = Field(description="balls interpolated on the skeletal mesh")
+    refine_radii: bool = Field(description="radii from the distance to the skeletal mesh instead of its points")
+    network: Network
+
+
+L1Medial: Any = section_of(L1MedialSettings)
+DeepPoints: Any = section_of(DeepPointsSettings)
+
+
+class Methods(Section):
+    """The skeleton methods to run beside MorphoSkel3D."""
+
+    coverage_axis: CoverageAxis | None = Field(default=None, description="Coverage Axis++")
+    l1_medial: L1Medial | None = Field(default=None, description="L1-medial skeleton")
+    dpc: DeepPoints | None = Field(default=None, description="deep points consolidation")
+    point2skeleton: Point2Skeleton | None = Field(default=None, description="Point2Skeleton")
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the methods that are configured."""
+        return [name for name in type(self).model_fields if getattr(self, name) is not None]
 
 
 class Evaluation(Section):
     """Which shapes enter the skeleton tables."""
 
     split: Name = Field(description="split of the data set")
+    equal_counts: tuple[PositiveInt, ...] = Field(
+        description="numbers of balls to which every skeleton is brought for comparison"
+    )
+
+
+class MedialAxis(Section):
+    """The reference medial axis of CD-MAT and HD-MAT."""
+
+    folder: Path | None = Field(description="folder with <shape>_mat.ply or <shape>.ma files; null: computed")
+    surface: str = Field(description="the surface reconstruction that it is computed from")
+    samples: Annotated[int, Field(ge=100)] = Field(description="points on the surface, each with a shrinking ball")
+    separation_angle: Annotated[float, Field(ge=0, lt=180)] = Field(
+        description="degrees; balls whose two touching points are seen under less are pruned"
+    )
+    scale: Annotated[float, Field(ge=0)] = Field(
+        description="smallest distance of the two touching points, in diagonals of the box"
+    )
+    tolerance: Annotated[float, Field(ge=0)] = Field(
+        description="depth of samples inside a ball that is forgiven, in radii"
+    )
+    gap: Annotated[float, Field(ge=0)] = Field(description="smallest distance between points of the axis, in diagonals")
+    count: PositiveInt = Field(description="points of the axis, at most")
+
+
+class Trainer(Section):
+    """How networks are trained."""
+
+    accelerator: Literal["auto", "cpu", "gpu"] = Field(description="processor or graphics card")
+    threads: PositiveInt = Field(description="threads of the processor; results on a processor depend on it")
 
 
 class Timing(Section):
@@ -183,7 +153,7 @@ class Config(Section):
         "on fewer with more threads where there are fewer; does not change results"
     )
     max_failed: Annotated[int, Field(ge=0)] = Field(
-        description="failed shapes tolerated under each surface reconstruction"
+        description="failed shapes tolerated under each method and surface reconstruction"
     )
     keep_intermediates: bool = Field(
         description="keep occupancy, UDF and dilation: 8 bytes an inner point and a bit a candidate; a change of "
@@ -193,5 +163,8 @@ class Config(Section):
     surface: Surface
     watertight: Watertight
     skeleton: Skeleton
+    methods: Methods = Methods()
     evaluation: Evaluation
+    medial_axis: MedialAxis
+    trainer: Trainer
     timing: Timing

@@ -14,10 +14,12 @@ from morphoskel.datasets.configured import open_configured
 from morphoskel.datasets.manifest import ShapeRecord, read_manifest
 from morphoskel.errors import MorphoSkelError
 from morphoskel.morphology import dilation
+from morphoskel.morphology.residue import residue
 from morphoskel.seeds import derive_seed
 from morphoskel.shapes import PointCloud
+from morphoskel.skeleton.coverage import coverage_skeleton, typical_radius
 from morphoskel.skeleton.selection import skeleton_of
-from morphoskel.stages import STAGES
+from morphoskel.stages import TIMED_STAGES
 from morphoskel.surface import reconstruct, watertight
 from morphoskel.volume import Candidates, SurfaceDistance, occupancy
 
@@ -76,7 +78,7 @@ def time_stages(
             rows += [
                 {"id": record.id, "category": record.category, "surface": surface, "stage": stage,
                  "seconds": seconds.get(stage), "threads": threads}
-                for stage in STAGES
+                for stage in TIMED_STAGES
             ]  # fmt: skip
     return pd.DataFrame(rows)
 
@@ -99,7 +101,8 @@ def _time_shape(
     settings = sections["skeleton"]
     try:
         with _clock(seconds, "reconstruct"):
-            mesh = reconstruct(cloud, surface, **sections["reconstruction"])
+            seed_of_sites = derive_seed(seed, record.id, "reconstruct")
+            mesh = reconstruct(cloud, surface, seed=seed_of_sites, **sections["reconstruction"])
         with _clock(seconds, "watertight"):
             closed = watertight(mesh, seed=derive_seed(seed, record.id, "watertight"), **sections["watertight"])
         box = Candidates(*closed.bounds, **settings["candidates"], seed=derive_seed(seed, record.id, "occupancy"))
@@ -111,6 +114,17 @@ def _time_shape(
             dilated = dilation(inner, udf, settings["k"], threads=threads)
         with _clock(seconds, "select_skeleton"):
             skeleton_of(inner, udf, dilated, settings["points"])
+        with _clock(seconds, "cover_skeleton"):
+            coverage_skeleton(
+                inner,
+                udf,
+                residue(udf, dilated),
+                cloud.points,
+                points=settings["points"],
+                element_radius=typical_radius(box, settings["k"]),
+                threads=threads,
+                **settings["coverage"],
+            )
     except MorphoSkelError as error:
         logger.warning("%s: not timed further: %s", record.id, error)
     return seconds

@@ -46,6 +46,8 @@ METRICS = {
         Metric("hd_recon", "HD-Recon", "", 4, "lower"),
         Metric("cd_mat", "CD-MAT", "", 4, "lower"),
         Metric("hd_mat", "HD-MAT", "", 4, "lower"),
+        Metric("cd_mat_computed", "CD-MAT*", "", 4, "lower"),
+        Metric("hd_mat_computed", "HD-MAT*", "", 4, "lower"),
         Metric("cd_recon_points", "CD-Recon, first term: points to spheres", "", 4, "lower"),
         Metric("cd_recon_spheres", "CD-Recon, second term: spheres to points", "", 4, "lower"),
         Metric("seconds", "Time a shape", "seconds", 2, None),

@@ -1,4 +1,4 @@
-"""A page of skeletons: one row a surface reconstruction, one column a category."""
+"""A page of skeletons: one row a method and surface reconstruction, one column a category."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from morphoskel.errors import InputError
 from morphoskel.formats import read_skeleton_ply
 from morphoskel.formats.read_mesh import read_mesh
 from morphoskel.reporting.contact_sheet import FROM_THE_FRONT
-from morphoskel.reporting.names import surface_name
+from morphoskel.reporting.names import method_name
 from morphoskel.reporting.render import View, render_balls
 from morphoskel.reporting.skeleton_picture import colour_by_radius
 
@@ -31,7 +31,7 @@ def draw_skeleton_gallery(
     *,
     view: View = FROM_THE_FRONT,
 ) -> None:
-    """Draw the first shape of each category under every surface reconstruction.
+    """Draw the first shape of each category under every method and surface reconstruction.
 
     Parameters
     ----------
@@ -39,8 +39,11 @@ def draw_skeleton_gallery(
         The PNG to write.
     records
         The shapes of a split.
-    meshes, skeletons
-        For each reconstruction, the folders of all shards with closed surfaces and with skeletons.
+    meshes
+        For each surface reconstruction, the folders of all shards with closed surfaces.
+    skeletons
+        For each surface and method, joined with a slash, the folders of all shards with skeletons. Those of a method
+        without a surface are drawn in the first surface there is.
     view
         The camera.
 
@@ -55,17 +58,19 @@ def draw_skeleton_gallery(
     first: dict[str, ShapeRecord] = {}
     for record in records:
         first.setdefault(record.category, record)
-    if not first or not skeletons:
-        raise InputError("a gallery needs at least one shape and one surface reconstruction")
+    if not first or not skeletons or not meshes:
+        raise InputError("a gallery needs at least one shape, one surface reconstruction and one method")
     size = (TILE_INCHES * len(first) + 0.25, TILE_INCHES * len(skeletons) + 0.25)
     figure = Figure(figsize=size, layout="constrained")
     FigureCanvasAgg(figure)
     tiles = figure.subplots(len(skeletons), len(first), squeeze=False)
-    for row, surface in zip(tiles, skeletons, strict=True):
-        row[0].set_ylabel(surface_name(surface))
+    for row, pair in zip(tiles, skeletons, strict=True):
+        surface, _, method = pair.partition("/")
+        folders = meshes.get(surface, next(iter(meshes.values())))
+        row[0].set_ylabel(method_name(method, surface).replace(", ", "\n"), fontsize=8)
         for axes, record in zip(row, first.values(), strict=True):
             axes.set(xticks=[], yticks=[], frame_on=False)
-            _draw(axes, record.id, meshes[surface], skeletons[surface], view)
+            _draw(axes, record.id, folders, skeletons[pair], view)
     for axes, category in zip(tiles[0], first, strict=True):
         axes.set_title(category)
     with atomic_file(path) as partial:
@@ -80,6 +85,6 @@ def _draw(axes: Axes, shape: str, meshes: Sequence[Path], skeletons: Sequence[Pa
         axes.text(0.5, 0.5, f"failed at {row.stage}", ha="center", va="center", fontsize=7)
         return
     skeleton = read_skeleton_ply(folder / f"{shape}.ply")
-    [surface] = [read_mesh(mesh / f"{shape}.ply") for mesh in meshes if (mesh / f"{shape}.ply").exists()]
+    surface = next((read_mesh(mesh / f"{shape}.ply") for mesh in meshes if (mesh / f"{shape}.ply").exists()), None)
     colours, _ = colour_by_radius(skeleton)
     axes.imshow(render_balls(skeleton, colours, view, under=surface), interpolation="antialiased")

@@ -1,4 +1,4 @@
-"""A picture of one skeleton: the surface, and the maximal balls inside it."""
+"""A picture of one skeleton: the surface, if there is one, and the balls."""
 
 from __future__ import annotations
 
@@ -18,8 +18,10 @@ if TYPE_CHECKING:
 COLOUR_MAP = "viridis"
 
 
-def draw_skeleton(path: Path, skeleton: Skeleton, surface: Mesh, *, title: str, view: View | None = None) -> None:
-    """Write a PNG with the closed surface on the left and its maximal balls, coloured by radius, on the right.
+def draw_skeleton(
+    path: Path, skeleton: Skeleton, surface: Mesh | None, *, title: str, view: View | None = None
+) -> None:
+    """Write a PNG with the closed surface on the left and the balls, coloured by radius, on the right.
 
     Parameters
     ----------
@@ -28,7 +30,7 @@ def draw_skeleton(path: Path, skeleton: Skeleton, surface: Mesh, *, title: str, 
     skeleton
         The balls.
     surface
-        The closed surface they lie in.
+        The closed surface they lie in; ``None`` if the method read the cloud alone, then the balls are all there is.
     title
         Name of the shape.
     view
@@ -39,22 +41,24 @@ def draw_skeleton(path: Path, skeleton: Skeleton, surface: Mesh, *, title: str, 
 
     view = view or View()
     colours, scale = colour_by_radius(skeleton)
-    pictures = [render_mesh(surface, view), render_balls(skeleton, colours, view, under=surface)]
+    pictures = [render_balls(skeleton, colours, view, under=surface)]
+    titles = [f"{len(skeleton):,} balls" if surface else f"{title}: {len(skeleton):,} balls"]
+    if surface:
+        pictures.insert(0, render_mesh(surface, view))
+        titles.insert(0, f"{title}: closed surface, {len(surface.triangles):,} triangles")
     rows, columns = _extent(pictures)
     shown = [picture[rows, columns] for picture in pictures]
     width = 6.0
     figure = Figure(
-        figsize=(2 * width + 0.8, width * shown[0].shape[0] / shown[0].shape[1] + 0.5), layout="constrained"
+        figsize=(len(shown) * width + 0.8, width * shown[0].shape[0] / shown[0].shape[1] + 0.5), layout="constrained"
     )
     FigureCanvasAgg(figure)
-    left, right = figure.subplots(1, 2)
-    left.imshow(shown[0])
-    left.set_title(f"{title}: closed surface, {len(surface.triangles):,} triangles")
-    right.imshow(shown[1])
-    right.set_title(f"{len(skeleton):,} maximal balls")
-    for panel in (left, right):
+    panels = figure.subplots(1, len(shown), squeeze=False)[0]
+    for panel, picture, text in zip(panels, shown, titles, strict=True):
+        panel.imshow(picture)
+        panel.set_title(text)
         panel.set_axis_off()
-    figure.colorbar(scale, ax=right, label="ball radius (UDF), in the shape's unit", shrink=0.8, pad=0.02)
+    figure.colorbar(scale, ax=panels[-1], label="ball radius, in the shape's unit", shrink=0.8, pad=0.02)
     with atomic_file(path) as partial:
         figure.savefig(partial, dpi=110, format="png")
 

@@ -34,7 +34,8 @@ def write_skeleton_table(
     stem
         Path of the files without the suffix.
     provenance
-        ``dataset``, ``seed``, ``protocol``, ``candidates`` (text) and ``config`` (hash), for the caption.
+        ``dataset``, ``seed``, ``protocol``, ``candidates`` (text), ``medial_axis`` (``given`` or ``computed``) and
+        ``config`` (hash), for the caption.
 
     Raises
     ------
@@ -54,6 +55,8 @@ def write_skeleton_table(
         title = f"{title}; {threads} threads after the watertight conversion, 1 before"
     else:
         build = skeleton_reconstruction if name == "skeleton_reconstruction" else surface_reconstruction
-        table = build(frame, published_folder, **common, protocol=provenance["protocol"])
+        table = build(
+            frame, published_folder, **common, protocol=provenance["protocol"], axis=provenance["medial_axis"]
+        )
     caption = compose_caption(title, table.frame, provenance["config"])
     write_table(table.frame, stem, caption, table.footnotes)

@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import fields
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from morphoskel.errors import InputError
 from morphoskel.evaluation.averages import averages
 from morphoskel.evaluation.protocol import EvaluationProtocol
-from morphoskel.evaluation.sphere_metrics import (
-    SphereDistances,
-    cd_recon,
-    hd_recon,
-    mean_point_to_sphere,
-    mean_sphere_to_point,
-)
+from morphoskel.evaluation.skeletons import AS_IS, DENSE
 from morphoskel.reporting.comparison import (
     compose_footnotes,
     measured_frame,
@@ -26,27 +18,29 @@ from morphoskel.reporting.comparison import (
     weight_footnote,
     withhold_averages,
 )
-from morphoskel.reporting.names import skeleton_name, surface_name
+from morphoskel.reporting.names import method_name, skeleton_name, surface_name
 from morphoskel.reporting.published import derive_averages, published_shape_counts, read_published
+from morphoskel.reporting.shape_values import DISTANCE_COLUMNS, AxisOrigin, metric_values
 from morphoskel.reporting.table import ResultTable, assemble
 
 if TYPE_CHECKING:
     import pandas as pd
 
-MS3D, REFERENCE = skeleton_name("ms3d"), skeleton_name("point2skeleton")
+MS3D, REFERENCE = "ms3d", "point2skeleton"
 
-DISTANCE_COLUMNS = tuple(field.name for field in fields(SphereDistances))
+SHAPE_COLUMNS = ("id", "category", "surface", "method", "balls", "status", "reason", *DISTANCE_COLUMNS)
+"""Columns of the per-shape rows; further ones are `seconds` and :data:`AXIS_COLUMNS`."""
 
-SHAPE_COLUMNS = ("id", "category", "surface", "method", "status", "reason", *DISTANCE_COLUMNS)
-"""Columns of the per-shape rows."""
+COMPUTED_AXIS = (
+    "MAT*: distances to medial axes that this run computed from the closed surfaces (repaired Poisson by default), "
+    "not to the reference axes of the paper. They compare our rows with each other, never with the paper's CD-MAT and "
+    "HD-MAT."
+)
 
-METRICS: dict[str, Callable[[SphereDistances, EvaluationProtocol], float]] = {
-    "cd_recon": cd_recon,
-    "hd_recon": lambda distances, _: hd_recon(distances),
-    "cd_recon_points": lambda distances, _: mean_point_to_sphere(distances),
-    "cd_recon_spheres": mean_sphere_to_point,
-}
-"""What is computed of each shape. The two terms stand alone as well, since one of them depends on the protocol."""
+TIMES = (
+    "Time a shape: all stages from the cloud to the skeleton, each timed in the process of the shape, while others ran "
+    "beside it; training is not in it. The paper names no times here."
+)
 
 LISTED_FAILURES = 10
 """Failed shapes named in a footnote; the others are only counted."""
@@ -59,25 +53,34 @@ RELEASED_VALUES = (
 
 
 def skeleton_reconstruction(
-    shapes: pd.DataFrame, published_folder: Path, *, dataset: str, seeds: Sequence[int], protocol: EvaluationProtocol
+    shapes: pd.DataFrame,
+    published_folder: Path,
+    *,
+    dataset: str,
+    seeds: Sequence[int],
+    protocol: EvaluationProtocol,
+    axis: AxisOrigin = "computed",
 ) -> ResultTable:
-    """Build the table that compares skeleton methods: L1, DPC, P2S, MS3D and any other that was run.
+    """Build the table that compares skeleton methods, each with its own balls and with equal numbers of them.
 
     Parameters
     ----------
     shapes
-        Columns :data:`SHAPE_COLUMNS`, one row a shape, surface and method. `surface` and `method` are the names of
-        the configuration, `surface` empty if the method needs none; `status` is ``ok`` or ``failed``, and the
-        numbers of a failed row do not matter. Rows on another surface than Poisson do not enter.
+        Columns :data:`SHAPE_COLUMNS`, one row a shape, surface, method and kind of balls. `surface` and `method` are
+        the names of the configuration, `surface` ``cloud`` or empty if the method needs none; `status` is ``ok`` or
+        ``failed``, and the numbers of a failed row do not matter. Rows on other surfaces than plain and repaired
+        Poisson do not enter.
     published_folder
         The folder ``config/paper``.
     dataset, seeds, protocol
         How the rows came to be, and how to average them.
+    axis
+        Where the reference axes come from. Only given ones stand beside the paper's.
 
     Returns
     -------
     ResultTable
-        The metrics CD-Recon, HD-Recon, CD-MAT, HD-MAT and the two terms of CD-Recon.
+        The metrics CD-Recon, HD-Recon, CD-MAT, HD-MAT, the two terms of CD-Recon, and seconds.
 
     Raises
     ------
@@ -85,23 +88,42 @@ def skeleton_reconstruction(
         If a column is missing, a row is illegal or appears twice, or a published table cannot be read.
     """
     _check(shapes)
-    surfaces = shapes["surface"].fillna("").map(surface_name)
-    named = shapes.assign(method=shapes["method"].map(skeleton_name))[surfaces.isin([surface_name("poisson"), ""])]
-    return _build(named, "skeleton_reconstruction", published_folder, dataset, seeds, protocol)
+    chosen = shapes[shapes["surface"].fillna("").isin(["poisson", "repaired_poisson", "cloud", ""])]
+    chosen = chosen.sort_values("balls", key=_order_of_balls, kind="stable")
+    labels = [
+        method_name(str(method), str(surface), str(balls))
+        for method, surface, balls in zip(chosen["method"], chosen["surface"].fillna(""), chosen["balls"], strict=True)
+    ]
+    named = chosen.assign(label=labels)
+    return _build(named, "skeleton_reconstruction", published_folder, dataset, seeds, protocol, axis)
 
 
 def surface_reconstruction(
-    shapes: pd.DataFrame, published_folder: Path, *, dataset: str, seeds: Sequence[int], protocol: EvaluationProtocol
+    shapes: pd.DataFrame,
+    published_folder: Path,
+    *,
+    dataset: str,
+    seeds: Sequence[int],
+    protocol: EvaluationProtocol,
+    axis: AxisOrigin = "computed",
 ) -> ResultTable:
-    """Build the table that compares surface reconstructions for MS3D: BPA, Alpha, Poisson, and P2S for reference.
+    """Build the table that compares surface reconstructions for MS3D, with P2S (dense balls) for reference.
 
-    Parameters, result and errors are those of :func:`skeleton_reconstruction`, but the rows of every surface enter.
+    Parameters, result and errors are those of :func:`skeleton_reconstruction`, but the rows of MS3D on every surface
+    enter, and only its own balls.
     """
     _check(shapes)
-    methods = shapes["method"].map(skeleton_name)
+    own = (shapes["method"] == MS3D) & (shapes["balls"] == AS_IS)
+    reference = (shapes["method"] == REFERENCE) & (shapes["balls"] == DENSE)
     surfaces = shapes["surface"].fillna("").map(surface_name)
-    named = shapes.assign(method=surfaces.where(methods == MS3D, methods))[methods.isin([MS3D, REFERENCE])]
-    return _build(named, "surface_reconstruction_ablation", published_folder, dataset, seeds, protocol)
+    named = shapes.assign(label=surfaces.where(own, skeleton_name(REFERENCE)))[own | reference]
+    return _build(named, "surface_reconstruction_ablation", published_folder, dataset, seeds, protocol, axis)
+
+
+def _order_of_balls(kinds: pd.Series[str]) -> pd.Series[int]:
+    """Sort the methods' own balls first, then dense ones, then equal counts."""
+    order = {AS_IS: 0, DENSE: 1}
+    return kinds.map(lambda kind: order[kind] if kind in order else 1 + int(kind))
 
 
 def _build(
@@ -111,20 +133,19 @@ def _build(
     dataset: str,
     seeds: Sequence[int],
     protocol: EvaluationProtocol,
+    axis: AxisOrigin,
 ) -> ResultTable:
-    """Average the rows of each method and set them beside the paper's table."""
-    twice = shapes[shapes.duplicated(["id", "method"])]
+    """Average the rows of each label and set them beside the paper's table."""
+    twice = shapes[shapes.duplicated(["id", "label"])]
     if len(twice):
         row = twice.iloc[0]
-        raise InputError(f"shape {row['id']}: more than one row for {row['method']}; expected one a shape and method")
+        raise InputError(f"shape {row['id']}: more than one row for {row['label']}; expected one a shape and row")
     rows: list[dict[str, object]] = []
     categories: dict[str, list[str]] = {}
-    for method, of_method in shapes.groupby("method", sort=False):
-        name = str(method)
-        categories[name] = [str(category) for category in of_method["category"]]
-        distances = [_distances(row) for row in of_method.to_dict("records")]
-        for metric, measure in METRICS.items():
-            values = [math.nan if of_shape is None else measure(of_shape, protocol) for of_shape in distances]
+    for label, of_label in shapes.groupby("label", sort=False):
+        name = str(label)
+        categories[name] = [str(category) for category in of_label["category"]]
+        for metric, values in metric_values(of_label.to_dict("records"), protocol, axis).items():
             rows.extend(measured_rows(name, metric, averages(values, categories[name], protocol)))
 
     counts = published_shape_counts(published_folder)
@@ -132,46 +153,37 @@ def _build(
     published, withheld = withhold_averages(published, categories)
     frame = assemble(measured_frame(rows), published, dataset=dataset, seeds=seeds, protocol=protocol)
     weights = "" if withheld else weight_footnote(categories, counts)
-    footnotes = [origin_footnote(dataset, counts), RELEASED_VALUES, withheld, weights, *_failures(shapes)]
+    metrics = {str(row["metric"]) for row in rows}
+    footnotes = [
+        origin_footnote(dataset, counts),
+        RELEASED_VALUES,
+        COMPUTED_AXIS if "cd_mat_computed" in metrics else "",
+        TIMES if "seconds" in metrics else "",
+        withheld,
+        weights,
+        *_failures(shapes),
+    ]
     return ResultTable(frame, compose_footnotes(footnotes, published))
-
-
-def _distances(row: Mapping[Any, Any]) -> SphereDistances | None:
-    """Return the distances of one row, ``None`` if its shape failed."""
-    if row["status"] == "failed":
-        return None
-    numbers = {name: float(row[name]) for name in DISTANCE_COLUMNS}
-    bad = [name for name, number in numbers.items() if not (math.isfinite(number) and number >= 0)]
-    if bad or numbers["surface_points"] < 1 or numbers["spheres"] < 1:
-        raise InputError(
-            f"shape {row['id']}, {row['method']}: status is ok, but {', '.join(bad) or 'a count'} is not a legal "
-            "number; expected counts of at least 1 and finite distances of at least 0"
-        )
-    return SphereDistances(
-        surface_points=int(numbers["surface_points"]),
-        spheres=int(numbers["spheres"]),
-        point_to_sphere_sum=numbers["point_to_sphere_sum"],
-        point_to_sphere_max=numbers["point_to_sphere_max"],
-        sphere_to_point_sum=numbers["sphere_to_point_sum"],
-        sphere_to_point_max=numbers["sphere_to_point_max"],
-    )
 
 
 def _failures(shapes: pd.DataFrame) -> list[str]:
     """Name the failed shapes of each method, up to a number."""
     footnotes = []
-    for method, rows in shapes[shapes["status"] == "failed"].groupby("method", sort=False):
+    for label, rows in shapes[shapes["status"] == "failed"].groupby("label", sort=False):
         named = [
             f"{shape} ({str(reason).splitlines()[0] if str(reason) else 'no reason recorded'})"
             for shape, reason in zip(rows["id"], rows["reason"].fillna(""), strict=True)
         ]
         more = f" and {len(named) - LISTED_FAILURES} more" if len(named) > LISTED_FAILURES else ""
-        total = int((shapes["method"] == method).sum())
+        total = int((shapes["label"] == label).sum())
         footnotes.append(
-            f"{method}: {len(named)} of {total} shapes failed and are left out of its means: "
+            f"{label}: {len(named)} of {total} shapes failed and are left out of its means: "
             f"{'; '.join(named[:LISTED_FAILURES])}{more}."
         )
     return footnotes
+
+
+BALLS = rf"{AS_IS}|{DENSE}|[0-9]+"
 
 
 def _check(shapes: pd.DataFrame) -> None:
@@ -183,7 +195,8 @@ def _check(shapes: pd.DataFrame) -> None:
     problems = {
         "id, category and method must not be empty": shapes[["id", "category", "method"]].isna().any(axis=1),
         "expected the status ok or failed": ~shapes["status"].isin(["ok", "failed"]),
-        "MS3D works on a surface; name it": without_surface & (shapes["method"].map(skeleton_name) == MS3D),
+        "MS3D works on a surface; name it": without_surface & (shapes["method"] == MS3D),
+        "expected balls to be 'as is', 'dense' or a number": ~shapes["balls"].astype(str).str.fullmatch(BALLS),
     }
     for problem, concerned in problems.items():
         if concerned.any():

@@ -20,7 +20,7 @@ from morphoskel.reporting.comparison import (
 from morphoskel.reporting.names import skeleton_name, surface_name
 from morphoskel.reporting.published import derive_mean_times, published_shape_counts, read_published
 from morphoskel.reporting.table import ResultTable, assemble
-from morphoskel.stages import SKELETON_STAGES, STAGES
+from morphoskel.stages import SKELETON_STAGES, TIMED_STAGES
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -87,6 +87,7 @@ def _methods(surface: str) -> dict[str, tuple[str, ...]]:
         f"Watertight{after}": ("watertight",),
         f"{ms3d}{after}": SKELETON_STAGES,
         **{f"{ms3d}{after}: {stage}": (stage,) for stage in SKELETON_STAGES},
+        f"{skeleton_name('ms3d_coverage')}{after}: selection": ("cover_skeleton",),
     }
 
 
@@ -115,7 +116,7 @@ def _check(times: pd.DataFrame) -> None:
         raise InputError(f"rows of times: the columns {', '.join(missing)} are missing")
     problems = {
         "id, category and surface must not be empty": times[["id", "category", "surface"]].isna().any(axis=1),
-        f"unknown stage; expected one of {', '.join(STAGES)}": ~times["stage"].isin(STAGES),
+        f"unknown stage; expected one of {', '.join(TIMED_STAGES)}": ~times["stage"].isin(TIMED_STAGES),
         "expected a finite number of seconds, at least 0": (times["seconds"] < 0) | (times["seconds"] == math.inf),
         "a second time; expected one a shape, surface and stage": times.duplicated(list(TIME_COLUMNS[:-1])),
     }

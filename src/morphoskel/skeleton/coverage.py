@@ -22,6 +22,7 @@ import numpy.typing as npt
 from morphoskel.errors import InputError, ShapeError
 from morphoskel.shapes import FloatArray, IntArray, Skeleton
 from morphoskel.surface.repair import mean_spacing
+from morphoskel.volume import Candidates
 
 MOST_SURFACE_POINTS = 8192
 """Surface points that take part; of more, every so-manieth. They bound the time, not the number of balls."""
@@ -32,6 +33,10 @@ CONTENDERS = 16
 NOMINEES_OF_A_THIN_PART = 2
 """Nominees of a surface point whatever their residue. A part thinner than the structuring element has no residue
 below half its radius, for the UDF itself varies by less."""
+
+TOLERATED = 2.0
+"""Error of a surface point, in spacings, up to which a ball has to be a gain for all points together. A ball that mends
+a larger one may spoil others at first; balls that follow mend those."""
 
 LARGEST_RESIDUE = 0.5
 """Of the other nominees, in radii of the structuring element. The UDF grows by the distance to a maximal ball's centre,
@@ -89,7 +94,7 @@ def coverage_skeleton(
     """
     from scipy.spatial import KDTree
 
-    surface_points = surface_points[:: -(-len(surface_points) // MOST_SURFACE_POINTS)]
+    surface_points = surface_points[:: max(-(-len(surface_points) // MOST_SURFACE_POINTS), 1)]
     if len(np.unique(surface_points, axis=0)) < 2:
         raise InputError("coverage selection: expected at least 2 distinct surface points")
     tree = KDTree(surface_points)
@@ -107,13 +112,13 @@ def coverage_skeleton(
         nominate(nearest[touching], residues[touching], udf[touching], nominees, LARGEST_RESIDUE * element_radius)
     ]
     centres, radii = inner[kept].astype(np.float64), to_surface[kept]
-    chosen = choose_covering(surface_points, centres, radii, points)
+    chosen = choose_covering(surface_points, centres, radii, points, tolerance=TOLERATED * spacing)
     return Skeleton(centres[chosen], radii[chosen], residues[kept[chosen]].astype(np.float64))
 
 
-def typical_radius(lower: FloatArray, upper: FloatArray, candidates: int, k: int) -> float:
-    """Return the radius of a ball that holds `k` of so many candidates spread over a box."""
-    density = candidates / float(np.prod(np.asarray(upper) - np.asarray(lower)))
+def typical_radius(candidates: Candidates, k: int) -> float:
+    """Return the radius of a ball that holds `k` candidates on average."""
+    density = len(candidates) / float(np.prod(candidates.upper - candidates.lower))
     return float((3 * k / (4 * np.pi * density)) ** (1 / 3))
 
 
@@ -135,7 +140,8 @@ def nominate(
     nominees
         Candidates of each surface point.
     largest_residue
-        Of all but the first :data:`ALWAYS_NOMINATED`.
+        Of the nominees of a surface point. Where no candidate has so small a residue, the first
+        :data:`NOMINEES_OF_A_THIN_PART` are nominated.
 
     Returns
     -------
@@ -152,7 +158,9 @@ def nominate(
     return nominated
 
 
-def choose_covering(surface_points: FloatArray, centres: FloatArray, radii: FloatArray, count: int) -> IntArray:
+def choose_covering(
+    surface_points: FloatArray, centres: FloatArray, radii: FloatArray, count: int, *, tolerance: float
+) -> IntArray:
     """Choose balls that explain all surface points, the worst explained point first.
 
     The first ball is the largest. Once no surface point can be explained better, balls far from those chosen follow.
@@ -165,6 +173,8 @@ def choose_covering(surface_points: FloatArray, centres: FloatArray, radii: Floa
         ``(C, 3)`` and ``(C,)`` float64, the balls to choose from.
     count
         Balls wanted.
+    tolerance
+        Error of a surface point up to which a ball for it must lower the sum of the squared errors of all points.
 
     Returns
     -------
@@ -180,6 +190,7 @@ def choose_covering(surface_points: FloatArray, centres: FloatArray, radii: Floa
         radii,
         int(np.argmax(radii)),
         CONTENDERS,
+        tolerance,
         chosen,
     )
     return chosen

@@ -6,12 +6,12 @@ from morphoskel.compiled import kernel
 
 
 @kernel
-def cover(surface, centres, radii, first, width, chosen):
+def cover(surface, centres, radii, first, width, tolerance, chosen):
     """Choose balls one by one, each for the surface point that is explained worst; see ``coverage.choose_covering``.
 
     `chosen` receives the indices of the balls in the order in which they are chosen. A surface point that no ball
-    left can explain better is given up until another ball comes close to it; once all are given up, the ball whose
-    centre is farthest from those chosen comes next.
+    left can explain better, or none without loss to the others while its error is within `tolerance`, is given up
+    until another ball comes close to it. Once all are given up, the ball farthest from those chosen comes next.
     """
     to_centre = np.full(len(surface), np.inf)
     error = np.full(len(surface), np.inf)
@@ -20,7 +20,6 @@ def cover(surface, centres, radii, first, width, chosen):
     best = np.empty(width, dtype=np.int64)
     best_error = np.empty(width)
     ball = first
-    strict = True
     for place in range(len(chosen)):
         chosen[place] = ball
         _insert(surface, centres, radii, ball, to_centre, error, given_up, free)
@@ -29,10 +28,6 @@ def cover(surface, centres, radii, first, width, chosen):
         ball = -1
         while ball < 0:
             worst = _worst(error, given_up)
-            if worst < 0 and strict:
-                strict = False
-                given_up[:] = False
-                continue
             if worst < 0:
                 ball = np.argmax(free)
                 break
@@ -41,7 +36,7 @@ def cover(surface, centres, radii, first, width, chosen):
                 given_up[worst] = True
             else:
                 ball, gain = _most_helpful(surface, centres, radii, best[:found], to_centre, error)
-                if strict and gain <= 0.0:
+                if gain <= 0.0 and error[worst] <= tolerance:
                     given_up[worst] = True
                     ball = -1
 
@@ -112,7 +107,9 @@ def _most_helpful(surface, centres, radii, balls, to_centre, error):
                 + (surface[i, 2] - centres[j, 2]) ** 2
             )
             if squared < to_centre[i] * to_centre[i]:
-                gain += error[i] ** 2 - (np.sqrt(squared) - radii[j]) ** 2
+                distance = np.sqrt(squared)
+                if distance < to_centre[i]:  # the square of a rounded root may exceed what the root was taken of
+                    gain += error[i] ** 2 - (distance - radii[j]) ** 2
         if gain > most:
             most = gain
             winner = j

@@ -8,6 +8,7 @@ surface, and surface far from the points. Normals are not used here, since they 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -187,9 +188,10 @@ def _inside(mesh: Mesh, points: FloatArray) -> npt.NDArray[np.bool_]:
     """Return which points lie inside, by the majority of three rays: the surface may have holes."""
     import open3d
 
-    scene = open3d.t.geometry.RaycastingScene(nthreads=1)
+    tensor: Any = open3d.core.Tensor
+    scene: Any = open3d.t.geometry.RaycastingScene(nthreads=1)
     vertices, triangles = mesh.vertices.astype(np.float32), mesh.triangles.astype(np.uint32)
-    scene.add_triangles(open3d.core.Tensor(vertices), open3d.core.Tensor(triangles))
-    queries = open3d.core.Tensor(points.astype(np.float32))
+    scene.add_triangles(tensor(vertices), tensor(triangles))
+    queries = tensor(points.astype(np.float32))
     inside: npt.NDArray[np.bool_] = scene.compute_occupancy(queries, nsamples=3).numpy() > 0.5
     return inside
