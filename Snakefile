@@ -37,3 +37,4 @@ rule all:
         rules.table_processing_time.output,
         rules.figure_contact_sheet.output,
         rules.figure_skeletons.output,
+        [rules.figure_explanation.output] if len(CONFIG.skeleton.selection) > 1 else [],

@@ -4,13 +4,17 @@ import trimesh
 import yaml
 from solids import sphere_cloud, torus
 
+from morphoskel import read_shape, skeletonize
 from morphoskel.cli import main
 from morphoskel.formats import read_skeleton_ply, write_cloud_ply, write_mesh_ply
+from morphoskel.methods import METHODS
+from morphoskel.surface.reconstruct import SURFACES
 
 FAST = [
     "skeleton.candidates.count=20000",
     "skeleton.points=32",
     "surface.poisson.depth=5",
+    "surface.repaired_poisson.depth=5",
     "watertight.resolution=2000",
 ]
 
@@ -60,6 +64,59 @@ def test_a_surface_that_is_not_configured_is_refused(tmp_path, capfd):
     write_cloud_ply(tmp_path / "a.ply", sphere_cloud(100))
     assert main(["skeletonize", str(tmp_path / "a.ply"), "-o", str(tmp_path), "--surface", "bpa"]) == 1
     assert "configured are poisson, ball_pivoting, alpha_shape" in capfd.readouterr().err
+
+
+def test_the_method_is_chosen_by_name_and_set_by_its_section(tmp_path):
+    write_mesh_ply(tmp_path / "torus.ply", torus())
+    words = ["skeletonize", str(tmp_path / "torus.ply"), *FAST]
+    assert main([*words, "-o", str(tmp_path / "dpc"), "--method", "dpc", "methods.dpc.samples=50", "--plot"]) == 0
+    assert len(read_skeleton_ply(tmp_path / "dpc" / "torus.ply")) == 50
+    assert (tmp_path / "dpc" / "torus.png").read_bytes().startswith(b"\x89PNG")
+    assert (
+        main([*words, "-o", str(tmp_path / "few"), "--method", "coverage_axis", "methods.coverage_axis.points=5"]) == 0
+    )
+    assert len(read_skeleton_ply(tmp_path / "few" / "torus.ply")) == 5
+
+
+def test_the_command_and_the_library_give_the_same_balls(tmp_path):
+    path = tmp_path / "shape.ply"  # the seeds depend on the name, which the library takes to be "shape"
+    write_mesh_ply(path, torus())
+    assert main(["skeletonize", str(path), "-o", str(tmp_path / "out"), "skeleton.candidates.count=9000"]) == 0
+    skeleton = skeletonize(read_shape(path), candidates=9000)
+    assert np.array_equal(read_skeleton_ply(tmp_path / "out" / "shape.ply").points, skeleton.points)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--method", "point2skeleton"], "`morphoskel run train_point2skeleton"),
+        (["--method", "point2skeleton", "--network", "absent.pt"], "absent.pt: no such file"),
+        (["--network", "network.pt"], "choose the method point2skeleton"),
+        (["--method", "dpc", "skeleton=[ms3d]"], "method 'dpc' is not configured"),
+    ],
+)
+def test_a_method_that_cannot_run_is_refused_before_any_file(words, message, tmp_path, capfd):
+    write_cloud_ply(tmp_path / "a.ply", sphere_cloud(100))
+    assert main(["skeletonize", str(tmp_path / "a.ply"), "-o", str(tmp_path / "out"), *words]) == 1
+    assert message in capfd.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_wrong_method_is_refused_with_the_legal_ones(capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(["skeletonize", "a.ply", "-o", "out", "--method", "skeleton"])
+    assert ended.value.code == 2
+    error = capsys.readouterr().err
+    assert all(method in error for method in METHODS)
+
+
+def test_help_names_every_method_and_surface(capsys):
+    with pytest.raises(SystemExit):
+        main(["skeletonize", "--help"])
+    text = capsys.readouterr().out
+    assert all(f"  {method} " in text for method in METHODS)
+    assert all(surface in text for surface in SURFACES)
+    assert f"--method {METHODS[0]} --surface poisson" in text
 
 
 def test_two_inputs_of_one_name_are_refused(tmp_path, capfd):

@@ -88,3 +88,9 @@ def test_decimals_of_the_metric():
         "1.23",
         "1.2",
     ]
+
+
+def test_only_rows_with_equally_many_balls_are_rivals():
+    rows = [("A", 0.3), ("B", 0.2), ("A, 100 balls", 0.5), ("B, 100 balls", 0.4), ("B, 1024 balls", 0.1)]
+    (matrix,) = metric_matrices(frame_of(*((name, "Mug", "cd_recon", value, math.nan, 1, 0) for name, value in rows)))
+    assert [line(block, "ours").best[0] for block in matrix.blocks] == [False, True, False, True, False]

@@ -2,11 +2,13 @@ import numpy as np
 import pytest
 from solids import sphere_cloud
 
+from morphoskel.config import compose
 from morphoskel.errors import ConfigError, ShapeError
 from morphoskel.shapes import PointCloud
 from morphoskel.surface import reconstruct
+from morphoskel.surface.reconstruct import SURFACES
 
-METHODS = ["poisson", "ball_pivoting", "alpha_shape"]
+METHODS = ["poisson", "ball_pivoting", "alpha_shape", "ponq", "repaired_poisson"]
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -56,5 +58,22 @@ def test_alpha_shape_scales_with_the_cloud_unless_told_otherwise():
 
 
 def test_an_unknown_method_is_refused():
-    with pytest.raises(ConfigError, match="legal are poisson, ball_pivoting, alpha_shape"):
+    legal = "legal are poisson, ball_pivoting, alpha_shape, ponq, repaired_poisson"
+    with pytest.raises(ConfigError, match=legal):
         reconstruct(sphere_cloud(10), "marching")
+
+
+def test_only_ponq_depends_on_the_seed():
+    cloud = sphere_cloud(500)
+    settings = {"alpha_shape": {"alpha": 1.5}, "poisson": {"depth": 5}, "repaired_poisson": {"depth": 5}}
+    for method in SURFACES:
+        first, second = (reconstruct(cloud, method, seed=seed, **settings.get(method, {})) for seed in (0, 1))
+        assert np.array_equal(first.vertices, second.vertices) == (method != "ponq"), method
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_the_configured_settings_are_the_methods(method):
+    """Each section of the configuration can be handed to its method as it is."""
+    surface = compose(["surface.poisson.depth=5", "surface.repaired_poisson.depth=5", "surface.alpha_shape.alpha=1.5"])
+    section = getattr(surface.surface, method).model_dump(mode="json")
+    assert len(reconstruct(sphere_cloud(500), method, **section).triangles) > 100

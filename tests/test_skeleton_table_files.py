@@ -4,9 +4,10 @@ from conftest import REPOSITORY
 
 from morphoskel.errors import InputError
 from morphoskel.reporting.skeleton_table_files import TITLES, write_skeleton_table
-from morphoskel.stages import STAGES
+from morphoskel.stages import TIMED_STAGES
 
-PROVENANCE = {"dataset": "mine", "seed": 7, "protocol": "correct", "candidates": "1,000 random", "config": "abc123"}
+PROVENANCE = {"dataset": "mine", "seed": 7, "protocol": "correct", "candidates": "1,000 random",
+              "medial_axis": "computed", "config": "abc123"}  # fmt: skip
 DISTANCES = {"surface_points": 100, "spheres": 50, "point_to_sphere_sum": 2.0, "point_to_sphere_max": 0.1,
              "sphere_to_point_sum": 1.0, "sphere_to_point_max": 0.3}  # fmt: skip
 
@@ -14,8 +15,8 @@ DISTANCES = {"surface_points": 100, "spheres": 50, "point_to_sphere_sum": 2.0, "
 def rows_of(name, surface):
     shape = {"id": "a", "category": "Chair", "surface": surface}
     if name == "processing_time":
-        return pd.DataFrame([{**shape, "stage": stage, "seconds": 0.25, "threads": 2} for stage in STAGES])
-    return pd.DataFrame([{**shape, "method": "ms3d", "status": "ok", "reason": "", **DISTANCES}])
+        return pd.DataFrame([{**shape, "stage": stage, "seconds": 0.25, "threads": 2} for stage in TIMED_STAGES])
+    return pd.DataFrame([{**shape, "method": "ms3d", "balls": "as is", "status": "ok", "reason": "", **DISTANCES}])
 
 
 @pytest.mark.parametrize("name", TITLES)

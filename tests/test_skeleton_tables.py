@@ -6,6 +6,7 @@ import pytest
 
 from morphoskel.errors import InputError
 from morphoskel.evaluation.averages import AVERAGES, MEAN_OVER_CATEGORIES, MEAN_OVER_SHAPES
+from morphoskel.reporting.shape_values import AXIS_COLUMNS
 from morphoskel.reporting.skeleton_tables import SHAPE_COLUMNS, skeleton_reconstruction, surface_reconstruction
 from morphoskel.reporting.table import write_table
 
@@ -13,23 +14,27 @@ FOLDER = Path(__file__).resolve().parents[1] / "config" / "paper"
 CATEGORIES = ["Airplane", "Chair", "Table", "Lamp", "Guitar", "Earphone", "Mug", "Rifle"]
 
 
-def row(shape, category, surface="poisson", method="ms3d", total=1.0):
+def row(shape, category, surface="poisson", method="ms3d", total=1.0, balls="as is", **more):
     """A shape of 10 points and 5 spheres whose distances sum up to `total` each way."""
-    return dict(
-        zip(SHAPE_COLUMNS, (shape, category, surface, method, "ok", "", 10, 5, total, 0.4, total, 0.3), strict=True)
-    )
+    values = (shape, category, surface, method, balls, "ok", "", 10, 5, total, 0.4, total, 0.3)
+    return dict(zip(SHAPE_COLUMNS, values, strict=True)) | more
 
 
 def failed(shape, category, surface="poisson", method="ms3d"):
     nothing = [math.nan] * 6
-    return dict(
-        zip(SHAPE_COLUMNS, (shape, category, surface, method, "failed", "no inside\nmore", *nothing), strict=True)
-    )
+    values = (shape, category, surface, method, "as is", "failed", "no inside\nmore", *nothing)
+    return dict(zip(SHAPE_COLUMNS, values, strict=True))
 
 
-def build(table, *rows, protocol="correct"):
-    frame = pd.DataFrame(rows, columns=list(SHAPE_COLUMNS))
-    return table(frame, FOLDER, dataset="synthetic", seeds=[7], protocol=protocol)
+def with_axis(total, **of_row):
+    """A row that also has distances to 10 axis points, which sum up to `total` each way."""
+    distances = dict(zip(AXIS_COLUMNS, (10, 5, total, 0.6, total, 0.5), strict=True))
+    return row(**of_row) | distances
+
+
+def build(table, *rows, protocol="correct", **options):
+    frame = pd.DataFrame(rows, columns=None if rows else list(SHAPE_COLUMNS))
+    return table(frame, FOLDER, dataset="synthetic", seeds=[7], protocol=protocol, **options)
 
 
 def cell(result, method, group, metric):
@@ -60,7 +65,7 @@ def test_ms3d_is_the_poisson_surface_in_one_table_and_every_surface_in_the_other
         row("a", "Chair", total=1.0),
         row("a", "Chair", "ball_pivoting", total=2.0),
         row("a", "Chair", "", "l1_medial", total=3.0),
-        row("a", "Chair", "", "point2skeleton", total=4.0),
+        row("a", "Chair", "cloud", "point2skeleton", total=4.0, balls="dense"),
     ]
     skeletons = build(skeleton_reconstruction, *rows)
     for method, total in (("MS3D", 1.0), ("L1", 3.0), ("P2S", 4.0)):
@@ -83,9 +88,49 @@ def test_every_printed_cell_appears_and_is_not_run(table, tmp_path):
     assert (tmp_path / "table.csv").read_text().count(",not run,") == len(result.frame)
 
 
-def test_ground_truth_metrics_are_not_run_yet():
-    frame = build(skeleton_reconstruction, *all_categories()).frame
-    assert frame.loc[frame["metric"].isin(["cd_mat", "hd_mat"]), "n"].eq(0).all()
+def test_each_method_has_a_row_for_its_own_balls_then_for_equal_counts():
+    rows = [
+        row("a", "Chair", "poisson", "ms3d_coverage", balls="100"),
+        row("a", "Chair", "repaired_poisson", "ms3d_coverage", balls="1024"),
+        row("a", "Chair", "repaired_poisson", "ms3d_coverage"),
+        row("a", "Chair", "cloud", "point2skeleton", balls="dense"),
+        row("a", "Chair", "cloud", "point2skeleton"),
+    ]
+    measured = build(skeleton_reconstruction, *rows).frame.query("n > 0")["method"]
+    assert list(dict.fromkeys(measured)) == [
+        "P2S",
+        "MS3D coverage, repaired Poisson",
+        "P2S, own balls",
+        "MS3D coverage, 100 balls",
+        "MS3D coverage, repaired Poisson, 1024 balls",
+    ]
+    assert "P2S, own balls" not in set(build(surface_reconstruction, *rows).frame["method"])
+
+
+def test_computed_axes_never_stand_beside_the_papers():
+    shape = with_axis(2.0, shape="a", category="Chair")
+    computed = build(skeleton_reconstruction, shape)
+    assert cell(computed, "MS3D", "Chair", "cd_mat_computed")["value"] == pytest.approx(2.0 * (1 / 10 + 1 / 5))
+    assert cell(computed, "MS3D", "Chair", "hd_mat_computed")["value"] == pytest.approx(0.6)
+    assert math.isnan(cell(computed, "MS3D", "Chair", "cd_mat_computed")["paper"])
+    assert computed.frame.loc[computed.frame["metric"].isin(["cd_mat", "hd_mat"]), "n"].eq(0).all()
+    assert any(note.startswith("MAT*") for note in computed.footnotes)
+    given = build(skeleton_reconstruction, shape, axis="given")
+    assert cell(given, "MS3D", "Chair", "cd_mat")["value"] == pytest.approx(2.0 * (1 / 10 + 1 / 5))
+    assert not given.frame["metric"].str.endswith("_computed").any()
+
+
+def test_a_shape_without_an_axis_counts_as_failed_for_these_metrics_alone():
+    result = build(skeleton_reconstruction, with_axis(2.0, shape="a", category="Chair"), row("b", "Chair"))
+    assert cell(result, "MS3D", "Chair", "cd_recon")["n"] == 2
+    assert tuple(cell(result, "MS3D", "Chair", "cd_mat_computed")[["n", "n_failed"]]) == (1, 1)
+
+
+def test_the_time_a_shape_is_a_metric_of_the_methods_own_balls():
+    rows = [row("a", "Chair", seconds=2.0), row("b", "Chair", seconds=4.0), row("a", "Chair", balls="100")]
+    result = build(skeleton_reconstruction, *rows)
+    assert cell(result, "MS3D", "Chair", "seconds")["value"] == pytest.approx(3.0)
+    assert set(result.frame.query("metric == 'seconds'")["method"]) == {"MS3D"}
 
 
 def test_averages_of_the_paper_stand_beside_ours_over_its_eight_categories():
@@ -149,6 +194,7 @@ def test_the_order_of_the_shapes_does_not_change_a_byte(tmp_path):
         ([{**row("a", "Chair"), "category": None}], "shape a, .*: id, category and method must not be empty"),
         ([row("a", "Chair", surface="")], "shape a, .*: MS3D works on a surface; name it"),
         ([{**row("a", "Chair"), "sphere_to_point_sum": math.nan}], "shape a, MS3D: status is ok, but sphere_to_point"),
+        ([row("a", "Chair", balls="some")], "shape a, .*: expected balls to be"),
         ([{**row("a", "Chair"), "spheres": 0}], "shape a, MS3D: status is ok, but a count"),
     ],
 )

@@ -61,7 +61,7 @@ def planned(repository: Path, *words: str) -> set[str]:
 def fingerprints(repository: Path, run_name: str = "smoke") -> dict[str, str]:
     folder = repository / "results" / run_name / "skeletons"
     return {path.name: hashlib.sha256(path.read_bytes()).hexdigest()
-            for path in sorted(folder.rglob("poisson/*/*.ply"))}  # fmt: skip
+            for path in sorted(folder.rglob("poisson/ms3d/*/*.ply"))}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -103,13 +103,32 @@ def test_smoke_writes_every_table(smoke, table):
     assert len(measured) > 0
 
 
-def test_methods_that_did_not_run_say_so(smoke):
+def test_every_method_is_compared_with_its_own_balls_and_with_equal_counts(smoke):
     frame = pd.read_csv(smoke[0] / "results/smoke/tables/skeleton_reconstruction.csv", keep_default_na=False)
-    for method in ("L1", "DPC", "P2S"):
-        rows = frame[frame["method"] == method]
-        assert len(rows) > 10
-        assert set(rows["value"]) == {"not run"}
-    assert "not run" in (smoke[0] / "results/smoke/tables/skeleton_reconstruction.md").read_text()
+    chair = frame[(frame["group"] == "Chair") & (frame["value"] != "not run")]
+    methods = ["L1", "DPC", "P2S", "MS3D", "MS3D coverage", "Coverage Axis++"]
+    repaired = [f"{method}, repaired Poisson" for method in methods[3:]]
+    own = {"cd_recon", "hd_recon", "cd_mat_computed", "hd_mat_computed"}
+    for method in [*methods, *repaired]:
+        for row in (method, f"{method}, 50 balls", f"{method}, 256 balls"):
+            assert own <= set(chair.loc[chair["method"] == row, "metric"]), row
+    surfaces = pd.read_csv(smoke[0] / "results/smoke/tables/surface_reconstruction.csv", keep_default_na=False)
+    measured = surfaces[(surfaces["group"] == "Chair") & (surfaces["value"] != "not run")]
+    assert set(measured["method"]) == {"BPA", "Alpha", "Poisson", "PoNQ", "repaired Poisson", "P2S"}
+
+
+def test_what_did_not_run_says_so(smoke):
+    frame = pd.read_csv(smoke[0] / "results/smoke/tables/skeleton_reconstruction.csv", keep_default_na=False)
+    assert set(frame.loc[frame["group"] == "Airplane", "value"]) == {"not run"}
+    assert set(frame.loc[frame["metric"] == "cd_mat", "value"]) == {"not run"}
+    output = run(smoke[0], "table_skeleton_reconstruction", "experiment=smoke", "skeleton=[ms3d]", "--", "--dry-run")
+    assert not re.search(r"rule (l1_medial|dpc|train_point2skeleton|coverage_axis):", output)
+
+
+def test_a_change_of_one_method_leaves_the_others(smoke):
+    rules = planned(smoke[0], "methods.dpc.iterations=2")
+    assert {"dpc", "evaluate_skeletons", "table_skeleton_reconstruction"} <= rules
+    assert not rules & {*CHAIN, "l1_medial", "train_point2skeleton", "point2skeleton", "medial_axis", "cover_skeleton"}
 
 
 def test_results_hold_the_resolved_configuration(smoke):
@@ -126,8 +145,8 @@ def test_a_second_run_has_nothing_to_do(smoke):
 
 def test_a_new_k_reruns_the_dilation_and_what_follows(smoke):
     rules = planned(smoke[0], "skeleton.k=10")
-    assert rules == {"dilation", "select_skeleton", "evaluate_skeletons", "time_stages", "figure_skeletons",
-                     "write_config",
+    assert rules == {"dilation", "select_skeleton", "cover_skeleton", "evaluate_skeletons", "time_stages",
+                     "figure_skeletons", "write_config",
                      *(f"table_{name}" for name in TABLES)}  # fmt: skip
 
 
@@ -171,8 +190,8 @@ def edit(path: Path, old: str, new: str):
 def test_a_killed_run_goes_on_to_the_same_skeletons(smoke, tmp_path):
     repository = copy_repository(tmp_path / "repository")
     shutil.copytree(smoke[0] / "resources" / "data", repository / "resources" / "data")
-    words = ["experiment=smoke", "surface=[poisson]", "shard_size=1"]
-    target = "results/smoke/evaluation/synthetic_smoke/test/poisson.csv"
+    words = ["experiment=smoke", "surface=[poisson]", "skeleton=[ms3d]", "shard_size=1"]
+    target = "results/smoke/evaluation/synthetic_smoke/test/poisson/ms3d.csv"
     command = [sys.executable, "-m", "morphoskel.cli", "run", target, *words]
     first = subprocess.Popen(command, cwd=repository, env=environment(repository), start_new_session=True,
                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip

@@ -17,7 +17,8 @@ METHODS = SURFACE_METHODS + CLOUD_METHODS
 """All skeleton methods."""
 
 RANKED = frozenset({"ms3d_coverage", "coverage_axis"})
-"""Methods whose first n balls are the method's answer for n balls."""
+"""Methods whose first n balls are the method's answer for n balls, for each is chosen in view of those before it. Those
+of ``ms3d`` are ordered by residue alone; its first ones may all lie in one part of the shape."""
 
 
 def check_method(method: str) -> None:

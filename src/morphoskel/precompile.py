@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import logging
 from importlib import import_module
+from typing import Any
 
 import numpy as np
 
@@ -28,13 +29,14 @@ def precompile() -> None:
     generator = np.random.default_rng(0)
     samples = sample_surface(tetrahedron, 200, generator).points
     import_module("morphoskel.chain.compiler")
-    for method, mode, settings in (
-        ("ms3d", "random", {}),
-        ("ms3d", "grid", {}),
-        ("ms3d_coverage", "random", {"touch": 5.0}),
-        ("coverage_axis", "random", {"penalty": "standardised"}),
-    ):
-        candidates = Candidates(np.zeros(3), np.ones(3), 1000, mode)  # type: ignore[arg-type]
+    scattered, grid = Candidates(np.zeros(3), np.ones(3), 1000), Candidates(np.zeros(3), np.ones(3), 1000, "grid")
+    runs: tuple[tuple[str, Candidates, dict[str, Any]], ...] = (
+        ("ms3d", scattered, {}),
+        ("ms3d", grid, {}),
+        ("ms3d_coverage", scattered, {"touch": 5.0}),  # the samples are few
+        ("coverage_axis", scattered, {"penalty": "standardised"}),  # which has a kernel of its own
+    )
+    for method, candidates, settings in runs:
         skeleton = skeleton_inside(method, tetrahedron, candidates, samples, k=20, points=16, settings=settings)
     opening(skeleton.points.astype(np.float32), skeleton.radii.astype(np.float32))
     medial_axis_of_mesh(tetrahedron, generator, samples=500, separation_angle=0.0, scale=0.0)

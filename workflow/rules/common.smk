@@ -4,7 +4,7 @@ from pathlib import Path
 
 from morphoskel.config import compose
 from morphoskel.datasets.configured import count_shapes
-from morphoskel.methods import CLOUD_METHODS
+from morphoskel.methods import CLOUD_METHODS, MORPHOLOGICAL
 from morphoskel.provenance import code_digest, content_hash, remember_digests
 
 # The scripts import the library from this clone, also inside an environment that Snakemake deploys.

@@ -12,6 +12,16 @@ def gallery_skeletons():
     }
 
 
+def explained_skeletons():
+    """Return the part of the gallery in which the selections of MS3D differ."""
+    return {
+        pair: folders
+        for pair, folders in gallery_skeletons().items()
+        if pair.split("/")[0] in ("poisson", "repaired_poisson")
+        and pair.split("/")[1] in MORPHOLOGICAL
+    }
+
+
 rule figure_contact_sheet:
     input:
         manifest="resources/manifest/{dataset}.csv".format(dataset=CONFIG.dataset.name),
@@ -73,3 +83,38 @@ rule figure_skeletons:
         digest=code_digest("reporting.skeleton_gallery"),
     script:
         "../scripts/draw_skeletons.py"
+
+
+if len(CONFIG.skeleton.selection) > 1:
+
+    rule figure_explanation:
+        input:
+            manifest="resources/manifest/{dataset}.csv".format(
+                dataset=CONFIG.dataset.name
+            ),
+            skeletons=[
+                folder
+                for folders in explained_skeletons().values()
+                for folder in folders
+            ],
+        output:
+            report(
+                "<results>/figures/explanation.png",
+                caption="../report/explanation.rst",
+                category="Figures",
+            ),
+        log:
+            "<logs>/figure_explanation.log",
+        conda:
+            "../../environment.yml"
+        resources:
+            mem_mb=1500,
+            runtime=30,
+        params:
+            dataset=section("dataset"),
+            seed=CONFIG.seed,
+            skeletons=explained_skeletons(),
+            split=CONFIG.evaluation.split,
+            digest=code_digest("reporting.explanation_figure"),
+        script:
+            "../scripts/draw_explanations.py"

@@ -229,3 +229,11 @@ def _with_progress(entries: Sequence[Entry], progress: bool) -> Iterable[Entry]:
 
     bar: Iterable[Entry] = tqdm(entries, desc="checksums", unit="shape")
     return bar
+
+
+def first_of_each_category(records: Iterable[ShapeRecord]) -> list[ShapeRecord]:
+    """Return the first shape of every category, in order of appearance."""
+    first: dict[str, ShapeRecord] = {}
+    for record in records:
+        first.setdefault(record.category, record)
+    return list(first.values())

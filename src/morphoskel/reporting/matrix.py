@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -100,9 +101,22 @@ def _metric_matrix(metric: Metric, rows: pd.DataFrame) -> MetricMatrix:
     columns = ("method", "group", "value", "paper", "n", "n_failed")
     for method, group, value, paper, n, n_failed in zip(*(rows[column] for column in columns), strict=True):
         cells.setdefault(str(method), {})[str(group)] = _Cell(float(value), float(paper), int(n), int(n_failed))
-    best = {group: _best([row[group].value for row in cells.values() if group in row], metric) for group in groups}
-    blocks = tuple(_method_block(method, row, groups, best, metric) for method, row in cells.items())
+    best = {
+        rivals: {
+            group: _best([row[group].value for name, row in cells.items() if _balls(name) == rivals and group in row],
+                         metric)
+            for group in groups
+        }
+        for rivals in {_balls(name) for name in cells}
+    }  # fmt: skip
+    blocks = tuple(_method_block(method, row, groups, best[_balls(method)], metric) for method, row in cells.items())
     return MetricMatrix(metric, groups, blocks)
+
+
+def _balls(method: str) -> str:
+    """Return the equal count at the end of a row's name, if there is one: only such rows are rivals of each other."""
+    found = re.search(r", \d+ balls$", method)
+    return found.group() if found else ""
 
 
 def _best(values: list[float], metric: Metric) -> str | None:

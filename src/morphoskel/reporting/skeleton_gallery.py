@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from morphoskel.atomic import atomic_file
 from morphoskel.chain.status import read_status
-from morphoskel.datasets.manifest import ShapeRecord
+from morphoskel.datasets.manifest import ShapeRecord, first_of_each_category
 from morphoskel.errors import InputError
 from morphoskel.formats import read_skeleton_ply
 from morphoskel.formats.read_mesh import read_mesh
@@ -55,9 +55,7 @@ def draw_skeleton_gallery(
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    first: dict[str, ShapeRecord] = {}
-    for record in records:
-        first.setdefault(record.category, record)
+    first = {record.category: record for record in first_of_each_category(records)}
     if not first or not skeletons or not meshes:
         raise InputError("a gallery needs at least one shape, one surface reconstruction and one method")
     size = (TILE_INCHES * len(first) + 0.25, TILE_INCHES * len(skeletons) + 0.25)
