@@ -1,8 +1,11 @@
 import pytest
+from solids import sphere_cloud
 
-from morphoskel.batch import arguments_of
+from morphoskel import skeletonization
+from morphoskel.batch import arguments_of, skeletonize_files
 from morphoskel.config import compose
 from morphoskel.errors import ConfigError
+from morphoskel.formats import write_cloud_ply
 from morphoskel.methods import METHODS
 from morphoskel.run_method import check_settings
 
@@ -42,3 +45,22 @@ def test_values_come_from_the_sections_of_the_method():
 def test_what_is_not_configured_is_refused(overrides, method, surface, message):
     with pytest.raises(ConfigError, match=message):
         arguments_of(compose(overrides), method, surface)
+
+
+def test_an_unexpected_error_does_not_stop_the_other_files(tmp_path, monkeypatch):
+    files = [tmp_path / f"{name}.ply" for name in "ab"]
+    for path in files:
+        write_cloud_ply(path, sphere_cloud(200))
+    real = skeletonization.skeletonize_shape
+
+    def give_up_on_a(shape, *, name, **arguments):
+        if name == "a":
+            raise RuntimeError("no facet\nmany lines follow")
+        return real(shape, name=name, **arguments)
+
+    monkeypatch.setattr(skeletonization, "skeletonize_shape", give_up_on_a)
+    result = skeletonize_files(
+        files, tmp_path / "out", compose(), method="l1_medial", surface="poisson", progress=False
+    )
+    assert result.failures == {files[0]: "RuntimeError: no facet"}
+    assert [path.name for path in result.written] == ["b.ply", "b.npz"]

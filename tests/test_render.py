@@ -45,3 +45,12 @@ def test_the_file_is_a_picture(tmp_path):
     draw_skeleton(tmp_path / "ball.png", HALF_BALL, ball(), title="ball", view=VIEW)
     with Image.open(tmp_path / "ball.png") as picture:
         assert picture.width > picture.height > 200
+
+
+def test_balls_without_a_surface_are_one_picture(tmp_path):
+    from PIL import Image
+
+    draw_skeleton(tmp_path / "both.png", HALF_BALL, ball(), title="ball", view=VIEW)
+    draw_skeleton(tmp_path / "alone.png", HALF_BALL, None, title="ball", view=VIEW)
+    with Image.open(tmp_path / "both.png") as both, Image.open(tmp_path / "alone.png") as alone:
+        assert 200 < alone.width < 0.6 * both.width

@@ -16,12 +16,12 @@ from morphoskel.formats.sample import sample_surface
 from morphoskel.methods import CLOUD_METHODS, METHODS, MORPHOLOGICAL, RANKED
 from morphoskel.networks.point2skeleton_network import Point2SkeletonNetwork, save_network
 from morphoskel.skeleton import ms3d
-from morphoskel.skeleton.coverage import MOST_SURFACE_POINTS, coverage_skeleton
+from morphoskel.skeleton.coverage import coverage_skeleton
 from morphoskel.skeleton.coverage_axis import coverage_axis
 from morphoskel.skeleton.dpc import DeepPointsSettings
 from morphoskel.skeleton.l1_medial import L1MedialSettings
 from morphoskel.skeleton.point2skeleton import point2skeleton
-from morphoskel.skeletonization import COVERED_SAMPLES, DEFAULT_SEED, _complete, skeletonize_shape
+from morphoskel.skeletonization import DEFAULT_SEED, _complete, skeletonize_shape
 
 
 @pytest.fixture(scope="module")
@@ -52,10 +52,6 @@ def same(method, configured):
     )
     values = {name: item.default for name, item in inspect.signature(function).parameters.items()}
     return configured == {name: values[name] for name in configured} | _complete(method, {})
-
-
-def test_a_mesh_is_sampled_as_densely_as_the_coverage_selection_reads():
-    assert COVERED_SAMPLES == MOST_SURFACE_POINTS
 
 
 @pytest.mark.parametrize("method", METHODS)

@@ -82,6 +82,10 @@ def skeletonize_files(
             result.written.extend(_skeletonize_file(path, name, folder, {**arguments, "network": network}, plot=plot))
         except MorphoSkelError as error:
             result.failures[path] = str(error)
+        except Exception as error:
+            # A native library gave up, or we have a defect: show where, and do the other files all the same.
+            logger.exception("%s: unexpected error", path)
+            result.failures[path] = f"{type(error).__name__}: {str(error).partition(chr(10))[0]}"
     return result
 
 

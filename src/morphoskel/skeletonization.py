@@ -18,12 +18,10 @@ from morphoskel.shapes import FloatArray, Mesh, PointCloud, Skeleton
 
 DEFAULT_SEED = 20250325
 
-COVERED_SAMPLES = 8192
-"""Points on a mesh for the methods that choose balls to cover it: as many as the coverage selection looks at."""
-
-CLOUD_SAMPLES = 2000
-"""Points on a mesh for the methods that read a cloud alone: the size of the clouds that the paper compares them on,
-which the default settings suit."""
+MESH_SAMPLES = 2000
+"""Points drawn on a mesh for a method that needs a cloud: the size of the clouds on which the paper compares methods,
+which their settings suit. More points make the coverage selection worse unless the candidates grow with them, because
+a point must have several candidates to choose from."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,7 +144,7 @@ def skeletonize_shape(
     ----------
     shape
         A mesh is closed; a cloud's surface is rebuilt first, where the method needs one. Where a method needs a
-        cloud, a mesh is sampled uniformly by area.
+        cloud, :data:`MESH_SAMPLES` points are drawn on a mesh, uniformly by area.
     method, settings
         Name and settings of the skeleton method.
     surface, reconstruction
@@ -185,7 +183,7 @@ def skeletonize_shape(
     check_settings(method, settings)
     check_network(method, network)
     if method in CLOUD_METHODS:
-        cloud = _sample(shape, CLOUD_SAMPLES, seed, name)
+        cloud = _as_cloud(shape, seed, name)
         generator = derive_generator(seed, name, method)
         return SkeletonizedShape(skeleton_of_cloud(method, cloud, generator, settings=settings, network=network), None)
     _check_volume_settings(candidates, k, points)
@@ -197,7 +195,7 @@ def skeletonize_shape(
         method,
         closed,
         Candidates(*closed.bounds, **candidates, seed=derive_seed(seed, name, "occupancy")),
-        None if method == "ms3d" else _sample(shape, COVERED_SAMPLES, seed, name).points,
+        None if method == "ms3d" else _as_cloud(shape, seed, name).points,
         k=k,
         points=points,
         settings=settings,
@@ -220,13 +218,13 @@ def _check_volume_settings(candidates: Mapping[str, Any], k: int, points: int) -
             raise ConfigError(f"{name}: expected a whole number from {least}, got {value}")
 
 
-def _sample(shape: PointCloud | Mesh, samples: int, seed: int, name: str) -> PointCloud:
+def _as_cloud(shape: PointCloud | Mesh, seed: int, name: str) -> PointCloud:
     """Return a cloud as it is, and points on a mesh."""
     from morphoskel.formats.sample import sample_surface
 
     if isinstance(shape, PointCloud):
         return shape
-    return sample_surface(shape, samples, derive_generator(seed, name, "sample"))
+    return sample_surface(shape, MESH_SAMPLES, derive_generator(seed, name, "sample"))
 
 
 def _as_points(array: npt.ArrayLike) -> FloatArray:

@@ -66,8 +66,9 @@ def explain_validation(error: ValidationError, values: Mapping[str, Any]) -> str
         elif finding["type"] == "missing":
             lines.append(f"{key}: missing{_describe(location)}")
         else:
+            message = finding["msg"].removeprefix("Value error, ")
             found = "" if isinstance(finding["input"], Mapping) else f", got {finding['input']!r}"
-            lines.append(f"{key}: {finding['msg']}{found}{_describe(location)}")
+            lines.append(f"{key}: {message}{found}{_describe(location)}")
     return "\n".join(lines)
 
 
