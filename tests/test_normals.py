@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 from solids import sphere_cloud
 
+from morphoskel.errors import ShapeError
 from morphoskel.shapes import PointCloud
 from morphoskel.surface.normals import complete_normals
 
@@ -33,3 +34,9 @@ def test_missing_normals_are_estimated_pointing_outward(given):
 def test_the_smallest_cloud_has_normals():
     tetrahedron = PointCloud([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
     assert np.allclose(np.linalg.norm(complete_normals(tetrahedron), axis=1), 1)
+
+
+def test_points_in_a_plane_have_no_outside():
+    flat = np.column_stack([np.random.default_rng(0).random((50, 2)), np.zeros(50)])
+    with pytest.raises(ShapeError, match="one plane"):
+        complete_normals(PointCloud(flat))

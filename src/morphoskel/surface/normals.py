@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from morphoskel.errors import ShapeError
 from morphoskel.shapes import FloatArray, PointCloud
 
 NEIGHBOURS = 16
@@ -27,6 +28,11 @@ def complete_normals(cloud: PointCloud) -> FloatArray:
     -------
     ndarray
         ``(N, 3)`` float64, unit length.
+
+    Raises
+    ------
+    ShapeError
+        If normals are missing and the points span no volume.
     """
     if cloud.normals is None:
         return _estimate_oriented(cloud.points)
@@ -66,7 +72,13 @@ def _estimate_oriented(points: FloatArray) -> FloatArray:
 
     cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(points))
     cloud.normals = open3d.utility.Vector3dVector(_fit_tangent_planes(points))
-    cloud.orient_normals_consistent_tangent_plane(min(NEIGHBOURS, len(points) - 1))
+    try:
+        cloud.orient_normals_consistent_tangent_plane(min(NEIGHBOURS, len(points) - 1))
+    except RuntimeError as error:  # Qhull's, which spans the tree along which normals are oriented
+        raise ShapeError(
+            f"normals: the missing normals of {len(points)} points cannot be oriented; do the points all lie in one "
+            "plane, or on one small sphere? Give their normals, or a cloud of a solid shape"
+        ) from error
     normals: FloatArray = np.array(cloud.normals, dtype=np.float64)
     # The divergence theorem on the whole cloud: the sum of p . n is positive where normals point outward.
     outward = float(np.sum((points - points.mean(axis=0)) * normals))

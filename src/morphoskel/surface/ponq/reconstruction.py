@@ -91,7 +91,7 @@ def reconstruct_ponq(
     count = _count_sites(distinct, settings)
     candidates = points if settings.with_replacement else distinct
     generator = np.random.default_rng(seed)
-    vertices = _fit_vertices(candidates, points, _complete_normals(cloud), count, settings, generator)
+    vertices = _fit_vertices(candidates, points, complete_normals(cloud), count, settings, generator)
 
     cells = settings.count_cells(count)
     tetrahedra = tetrahedralise(vertices.positions)
@@ -116,13 +116,6 @@ def _count_sites(distinct: FloatArray, settings: PonqSettings) -> int:
             "sites or use a denser cloud"
         )
     return count
-
-
-def _complete_normals(cloud: PointCloud) -> FloatArray:
-    try:
-        return complete_normals(cloud)
-    except RuntimeError as error:  # Qhull's, where missing normals are oriented on points that all lie on a sphere
-        raise ShapeError(f"ponq: the missing normals of {cloud!r} cannot be estimated: {error}") from error
 
 
 def _fit_vertices(
