@@ -16,6 +16,8 @@ residue as what it is, a test of maximality, and lets the surface decide where b
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import numpy.typing as npt
 
@@ -32,8 +34,11 @@ CONTENDERS = 16
 """Balls that explain the worst point best, of which the one that helps all points most is chosen."""
 
 NOMINEES_OF_A_THIN_PART = 2
-"""Nominees of a surface point that has no candidate of small residue: in a part thinner than the structuring element
+"""Nominees of a surface point that has no candidate of small residue. In a part no thicker than the structuring element
 the UDF itself hardly varies, and the residue says little."""
+
+THIN = 2.0
+"""Largest UDF in such a part, in radii of the structuring element."""
 
 TOLERATED = 2.0
 """Error of a surface point, in spacings, up to which a ball has to be a gain for all points together. A ball that mends
@@ -93,28 +98,72 @@ def coverage_skeleton(
     ShapeError
         If no ball touches the surface points.
     """
-    from scipy.spatial import KDTree
-
     surface_points = surface_points[:: max(-(-len(surface_points) // MOST_SURFACE_POINTS), 1)]
     if len(np.unique(surface_points, axis=0)) < 2:
         raise InputError("coverage selection: expected at least 2 distinct surface points")
-    tree = KDTree(surface_points)
     spacing = mean_spacing(surface_points)
-    found = tree.query(inner, workers=threads)
-    to_surface, nearest = np.asarray(found[0]), np.asarray(found[1])
-    touching = np.flatnonzero(np.abs(to_surface - udf) <= touch * spacing)
-    if len(touching) == 0:
+    largest_residue = LARGEST_RESIDUE * element_radius
+    contacts = _find_contacts(
+        inner, udf, residues, surface_points, touch * spacing, largest_residue, element_radius, threads
+    )
+    if len(contacts.candidates) == 0:
         raise ShapeError(
             f"coverage selection: none of {len(inner)} inner points is as far from the cloud as from the rebuilt "
             "surface; the surface does not follow the cloud, try another reconstruction or a larger "
             "skeleton.coverage.touch"
         )
-    kept = touching[
-        nominate(nearest[touching], residues[touching], udf[touching], nominees, LARGEST_RESIDUE * element_radius)
-    ]
-    centres, radii = inner[kept].astype(np.float64), to_surface[kept]
+    found = contacts.candidates
+    best = nominate(contacts.nearest, residues[found], udf[found], nominees, largest_residue)
+    kept, radii = found[best], contacts.distances[best]
+    centres = inner[kept].astype(np.float64)
     chosen = choose_covering(surface_points, centres, radii, points, tolerance=TOLERATED * spacing)
     return Skeleton(centres[chosen], radii[chosen], residues[kept[chosen]].astype(np.float64))
+
+
+@dataclass(frozen=True, eq=False)
+class _Contacts:
+    """Candidates whose balls touch the surface points, their distances to these, and the nearest of these."""
+
+    candidates: IntArray
+    distances: FloatArray
+    nearest: IntArray
+
+
+def _find_contacts(
+    inner: npt.NDArray[np.float32],
+    udf: npt.NDArray[np.float32],
+    residues: npt.NDArray[np.float32],
+    surface_points: FloatArray,
+    tolerance: float,
+    largest_residue: float,
+    element_radius: float,
+    threads: int,
+) -> _Contacts:
+    """Return the candidates of small residue that touch, and where a surface point has none, those in thin parts.
+
+    Most candidates are neither, and the search for their nearest surface point would cost more than the dilation.
+    """
+    from scipy.spatial import KDTree
+
+    tree = KDTree(surface_points)
+
+    def touching(which: IntArray) -> tuple[IntArray, FloatArray, IntArray]:
+        found = tree.query(inner[which], workers=threads)
+        distances, nearest = np.asarray(found[0]), np.asarray(found[1])
+        kept = np.abs(distances - udf[which]) <= tolerance
+        return which[kept], distances[kept], nearest[kept]
+
+    small = touching(np.flatnonzero(residues <= largest_residue))
+    bare = np.ones(len(surface_points), dtype=np.bool_)
+    bare[small[2]] = False
+    if not bare.any():
+        return _Contacts(*small)
+    thin = np.flatnonzero((residues > largest_residue) & (udf <= THIN * element_radius))
+    reach = THIN * element_radius + tolerance
+    near = KDTree(surface_points[bare]).query(inner[thin], distance_upper_bound=reach, workers=threads)
+    of_thin = touching(thin[np.isfinite(np.asarray(near[0]))])
+    own = bare[of_thin[2]]
+    return _Contacts(*(np.concatenate([first, second[own]]) for first, second in zip(small, of_thin, strict=True)))
 
 
 def typical_radius(candidates: Candidates, k: int) -> float:
