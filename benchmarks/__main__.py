@@ -1,11 +1,11 @@
-"""Run benchmarks by name, all by default: ``python -m benchmarks [ms3d] [scaling] [workflow]``."""
+"""Run benchmarks by name, all by default: ``python -m benchmarks [ms3d] [scaling] [workflow] [held_out]``."""
 
 import importlib
 import logging
 import sys
 from pathlib import Path
 
-NAMES = ("ms3d", "scaling", "workflow")
+NAMES = ("ms3d", "scaling", "workflow", "held_out")
 FOLDER = Path(__file__).resolve().parents[1] / "results" / "bench"
 
 

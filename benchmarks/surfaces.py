@@ -1,6 +1,7 @@
 """The closed surfaces that are measured: real ones where the extracts of the data sets lie, else synthetic ones."""
 
 import os
+from collections import Counter
 from pathlib import Path
 
 from morphoskel.config import compose
@@ -33,9 +34,27 @@ def prepare_surfaces(folder: Path) -> dict[str, Path]:
     return files
 
 
+def read_clouds(a_category):
+    """Yield category and cloud of so many test shapes a category: real ones where they lie, else synthetic ones."""
+    if not (DATA / "point2skeleton").is_dir():
+        for name in compose().dataset.categories:
+            for number in range(a_category):
+                yield name, generate_shape(name, f"{name}-held-out-{number}", seed=SEED, points=2000).cloud
+        return
+    dataset = _open(["dataset=point2skeleton", f"dataset.root={DATA / 'point2skeleton'}"])
+    taken = Counter()
+    for entry in dataset.list_shapes():
+        if entry.split == "test" and taken[entry.category] < a_category:
+            taken[entry.category] += 1
+            yield entry.category, dataset.load(entry.path)
+
+
+def _open(overrides):
+    return open_configured(compose(overrides).model_dump(mode="json")["dataset"], seed=SEED)
+
+
 def _clouds(overrides):
-    section = compose(overrides).model_dump(mode="json")["dataset"]
-    dataset = open_configured(section, seed=SEED)
+    dataset = _open(overrides)
     first = {}
     for entry in dataset.list_shapes():
         first.setdefault(entry.category, entry)
