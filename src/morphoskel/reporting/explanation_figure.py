@@ -10,7 +10,7 @@ import numpy as np
 from morphoskel.atomic import atomic_file
 from morphoskel.errors import InputError
 from morphoskel.reporting.contact_sheet import FROM_THE_FRONT
-from morphoskel.reporting.render import View, render_balls
+from morphoskel.reporting.render import View
 from morphoskel.shapes import FloatArray, PointCloud, Skeleton
 
 COLOUR_MAP = "inferno_r"
@@ -18,8 +18,8 @@ COLOUR_MAP = "inferno_r"
 FULL_SCALE = 0.05
 """Distance shown in the darkest colour, in longest sides of the cloud's box."""
 
-POINT_SIZE = 0.014
-"""Radius of the ball that stands for a point, in longest sides of the cloud's box."""
+POINT_AREA = 2.5
+"""Of the dot that stands for a point of the cloud, in square points of print."""
 
 TILE_INCHES = 1.7
 
@@ -65,10 +65,11 @@ def draw_explanations(
         row[0].set_ylabel(kind, fontsize=8)
         for axes, cloud, skeleton in zip(row, clouds.values(), of_kind, strict=True):
             extent = float(np.ptp(cloud.points, axis=0).max())
-            colours = scale.to_rgba(100 * unexplained(cloud, skeleton) / extent)[:, :3]
-            points = Skeleton(cloud.points, np.full(len(cloud), POINT_SIZE * extent))
-            axes.imshow(render_balls(points, colours, view), interpolation="antialiased")
-            axes.set(xticks=[], yticks=[], frame_on=False)
+            error = 100 * unexplained(cloud, skeleton) / extent
+            right, up, towards = view.axes() @ cloud.points.T
+            order = np.argsort(towards)  # the nearest points are drawn last
+            axes.scatter(right[order], up[order], POINT_AREA, error[order], cmap=COLOUR_MAP, norm=scale.norm, lw=0)
+            axes.set(xticks=[], yticks=[], frame_on=False, aspect="equal")
     for axes, name in zip(tiles[0], clouds, strict=True):
         axes.set_title(name, fontsize=9)
     bar = figure.colorbar(scale, ax=tiles, shrink=0.8, pad=0.01, extend="max")
