@@ -66,9 +66,11 @@ MINUTES = 10 + CONFIG.shard_size * (1 + CONFIG.skeleton.candidates.count // 10_0
 
 # Written out where params need them, in which Snakemake does not replace <results>.
 RESULTS = f"results/{CONFIG.run}"
-SKELETONS = RESULTS + "/skeletons/{dataset}/{split}/{surface}/{skeleton}/{shard}"
-AXES = RESULTS + "/medial_axis/{dataset}/{split}/{shard}"
-EVALUATION = RESULTS + "/evaluation/{dataset}/{split}/{surface}/{skeleton}.csv"
+SKELETONS = (
+    f"{RESULTS}/skeletons/{{dataset}}/{{split}}/{{surface}}/{{skeleton}}/{{shard}}"
+)
+AXES = f"{RESULTS}/medial_axis/{{dataset}}/{{split}}/{{shard}}"
+EVALUATION = f"{RESULTS}/evaluation/{{dataset}}/{{split}}/{{surface}}/{{skeleton}}.csv"
 
 
 def skeleton_methods():
@@ -151,6 +153,28 @@ def every_skeleton():
         for surface, method in pairs
         for folder in of_shards(SKELETONS, split, surface=surface, skeleton=method)
     ]
+
+
+def gallery_skeletons():
+    """Return the skeleton folders of the evaluated split by surface and method, joined with a slash."""
+    pairs = dict.fromkeys([*skeleton_methods(), *surface_methods()])
+    return {
+        f"{surface}/{method}": of_shards(
+            SKELETONS, CONFIG.evaluation.split, surface=surface, skeleton=method
+        )
+        for surface, method in pairs
+    }
+
+
+def explained_skeletons():
+    """Return the part of the gallery in which the selections of MS3D differ."""
+    wanted = [
+        f"{surface}/{method}"
+        for surface in ("poisson", "repaired_poisson")
+        for method in MORPHOLOGICAL
+    ]
+    gallery = gallery_skeletons()
+    return {pair: gallery[pair] for pair in wanted if pair in gallery}
 
 
 def evaluations(pairs):

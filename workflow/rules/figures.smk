@@ -1,27 +1,6 @@
 # Pictures.
 
 
-def gallery_skeletons():
-    """Return the skeleton folders of the evaluated split by surface and method, joined with a slash."""
-    pairs = dict.fromkeys([*skeleton_methods(), *surface_methods()])
-    return {
-        f"{surface}/{method}": of_shards(
-            SKELETONS, CONFIG.evaluation.split, surface=surface, skeleton=method
-        )
-        for surface, method in pairs
-    }
-
-
-def explained_skeletons():
-    """Return the part of the gallery in which the selections of MS3D differ."""
-    return {
-        pair: folders
-        for pair, folders in gallery_skeletons().items()
-        if pair.split("/")[0] in ("poisson", "repaired_poisson")
-        and pair.split("/")[1] in MORPHOLOGICAL
-    }
-
-
 rule figure_contact_sheet:
     input:
         manifest="resources/manifest/{dataset}.csv".format(dataset=CONFIG.dataset.name),
