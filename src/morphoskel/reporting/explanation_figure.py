@@ -62,14 +62,15 @@ def draw_explanations(
     FigureCanvasAgg(figure)
     tiles = figure.subplots(len(skeletons), len(clouds), squeeze=False)
     for row, (kind, of_kind) in zip(tiles, skeletons.items(), strict=True):
-        row[0].set_ylabel(kind, fontsize=8)
+        row[0].set_ylabel(kind.replace(", ", "\n"), fontsize=8)
         for axes, cloud, skeleton in zip(row, clouds.values(), of_kind, strict=True):
             extent = float(np.ptp(cloud.points, axis=0).max())
             error = 100 * unexplained(cloud, skeleton) / extent
             right, up, towards = view.axes() @ cloud.points.T
             order = np.argsort(towards)  # the nearest points are drawn last
             axes.scatter(right[order], up[order], POINT_AREA, error[order], cmap=COLOUR_MAP, norm=scale.norm, lw=0)
-            axes.set(xticks=[], yticks=[], frame_on=False, aspect="equal")
+            axes.set(xticks=[], yticks=[], frame_on=False)
+            axes.set_aspect("equal", adjustable="datalim")
     for axes, name in zip(tiles[0], clouds, strict=True):
         axes.set_title(name, fontsize=9)
     bar = figure.colorbar(scale, ax=tiles, shrink=0.8, pad=0.01, extend="max")
