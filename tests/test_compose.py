@@ -94,3 +94,10 @@ def test_the_configuration_is_frozen_and_plain():
 
 def test_the_tree_is_the_repositorys():
     assert config_folder() == REPOSITORY / "config"
+
+
+@pytest.mark.parametrize("experiment", ["smoke", "paper", "demo"])
+def test_what_an_experiment_says_of_a_member_that_is_not_chosen_does_not_count(experiment):
+    config = compose([f"experiment={experiment}", "skeleton=[ms3d,dpc]", "surface=[alpha_shape]"])
+    assert config.methods.names == ["dpc"]
+    assert config.surface.names == ["alpha_shape"]

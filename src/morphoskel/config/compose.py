@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import Any
 
 from morphoskel.config.explain import check_overrides, explain_validation
 from morphoskel.config.schema import Config
 from morphoskel.errors import ConfigError
+
+MEMBERS_OF = {"surface": "surface", "skeleton": "methods"}
+"""Groups of which several members are chosen, and the sections that hold one entry for each."""
 
 
 def config_folder() -> Path:
@@ -40,7 +43,9 @@ def compose(overrides: Sequence[str] = (), folder: Path | None = None) -> Config
     """
     from hydra import compose as hydra_compose
     from hydra import initialize_config_dir
+    from hydra.core.global_hydra import GlobalHydra
     from hydra.errors import HydraException
+    from hydra.types import RunMode
     from omegaconf import OmegaConf
     from omegaconf.errors import OmegaConfBaseException
     from pydantic import ValidationError
@@ -52,6 +57,10 @@ def compose(overrides: Sequence[str] = (), folder: Path | None = None) -> Config
     try:
         with initialize_config_dir(config_dir=str(folder), version_base="1.3"):
             tree = hydra_compose("config", overrides=list(overrides))
+            loader = GlobalHydra.instance().config_loader()
+            members = loader.compute_defaults_list("config", list(overrides), RunMode.RUN).defaults
+        OmegaConf.set_struct(tree, False)
+        _drop_unchosen(tree, {str(member.config_path) for member in members})
         values: Any = OmegaConf.to_container(tree, resolve=True, throw_on_missing=True)
     except (HydraException, OmegaConfBaseException) as error:
         raise ConfigError(_explain_composition(error)) from error
@@ -59,6 +68,14 @@ def compose(overrides: Sequence[str] = (), folder: Path | None = None) -> Config
         return Config.model_validate(values)
     except ValidationError as error:
         raise ConfigError(explain_validation(error, values)) from error
+
+
+def _drop_unchosen(tree: Any, chosen: Collection[str]) -> None:
+    """Drop what an experiment says of members of a group that are not chosen, so that they do not run."""
+    for group, section in MEMBERS_OF.items():
+        for name in list(tree.get(section) or {}):
+            if f"{group}/{name}" not in chosen:
+                del tree[section][name]
 
 
 def _explain_composition(error: Exception) -> str:
