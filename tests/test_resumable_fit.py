@@ -1,4 +1,6 @@
 import csv
+from types import SimpleNamespace
+from typing import ClassVar
 
 import pytest
 import torch
@@ -108,3 +110,49 @@ def test_the_epoch_with_the_smallest_validation_loss_is_kept(tmp_path):
         for part, target in zip(inputs.split(2), targets.split(2), strict=True)
     ]
     assert sum(means) / len(inputs) == pytest.approx(min(validation), rel=1e-4)
+
+
+def test_the_curves_are_written_for_tensorboard(tmp_path):
+    from tensorboard.backend.event_processing.event_accumulator import EventAccumulator
+
+    fit(Regression(), tmp_path)
+    events = EventAccumulator(str(tmp_path / "curves" / "line")).Reload()
+    written = [event.value for event in events.Scalars("validation_loss")]
+    assert written == pytest.approx([float(line[2]) for line in rows(tmp_path)[1:]], rel=1e-4)
+
+
+def test_every_validation_sees_the_same_noise(tmp_path):
+    class Noisy(Regression):
+        drawn: ClassVar[list[float]] = []
+
+        def validation_loss(self, batch):
+            self.drawn.append(float(torch.rand(())))
+            return super().validation_loss(batch)
+
+    fit(Noisy(), tmp_path)
+    first, *others = (Noisy.drawn[at : at + 2] for at in range(0, 8, 2))
+    assert others == [first] * 3
+
+
+def test_schedules_know_the_number_of_steps(tmp_path):
+    assert fit(Regression(), tmp_path).total_steps == 4 * 3
+
+
+def test_devices_are_dealt_equally_many_different_batches():
+    phase = Regression(shapes=11)
+    whole = [part.tolist() for part in phase.train_dataloader().parts]
+    dealt = []
+    for rank in range(2):
+        phase._trainer = SimpleNamespace(global_rank=rank, world_size=2, current_epoch=0)
+        dealt.append([part.tolist() for part in phase.train_dataloader().parts])
+    assert dealt == [whole[0:4:2], whole[1:4:2]]
+
+
+@pytest.mark.slow
+def test_several_devices_train_together(tmp_path):
+    phase = Regression(shapes=9)
+    resumable_fit(phase, 2, tmp_path, accelerator="cpu", devices=2, progress=False)
+    assert phase.total_steps == 2 * 2
+    assert [row[0] for row in rows(tmp_path)[1:]] == ["0", "1"]
+    moved = Regression(shapes=9).line.weight
+    assert not torch.equal(phase.line.weight, moved)
