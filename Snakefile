@@ -10,6 +10,7 @@ include: "workflow/rules/data.smk"
 include: "workflow/rules/skeleton.smk"
 include: "workflow/rules/learning.smk"
 include: "workflow/rules/methods.smk"
+include: "workflow/rules/sampling.smk"
 include: "workflow/rules/timing.smk"
 include: "workflow/rules/evaluation.smk"
 include: "workflow/rules/tables.smk"
@@ -35,6 +36,7 @@ rule all:
         rules.table_skeleton_reconstruction.output,
         rules.table_surface_reconstruction.output,
         rules.table_processing_time.output,
+        sampling_tables(),
         rules.figure_contact_sheet.output,
         rules.figure_skeletons.output,
         [rules.figure_explanation.output] if len(CONFIG.skeleton.selection) > 1 else [],

@@ -1,11 +1,11 @@
-"""Run benchmarks by name, all by default: ``python -m benchmarks [ms3d] [scaling] [workflow] [held_out]``."""
+"""Run benchmarks by name, all by default: ``python -m benchmarks [NAME]...`` with the names below."""
 
 import importlib
 import logging
 import sys
 from pathlib import Path
 
-NAMES = ("ms3d", "scaling", "workflow", "held_out")
+NAMES = ("ms3d", "scaling", "workflow", "held_out", "training_step")
 FOLDER = Path(__file__).resolve().parents[1] / "results" / "bench"
 
 

@@ -1,3 +1,5 @@
+import re
+
 import numpy as np
 import pytest
 import trimesh
@@ -8,6 +10,7 @@ from morphoskel import read_shape, skeletonize
 from morphoskel.cli import main
 from morphoskel.formats import read_skeleton_ply, write_cloud_ply, write_mesh_ply
 from morphoskel.methods import METHODS
+from morphoskel.sampling.samplers import SAMPLERS
 from morphoskel.surface.reconstruct import SURFACES
 
 FAST = [
@@ -131,7 +134,52 @@ def test_config_prints_what_a_run_would_use(capsys):
     assert yaml.safe_load(capsys.readouterr().out)["skeleton"]["k"] == 30
 
 
-@pytest.mark.parametrize("command", [[], ["run"], ["skeletonize"], ["config"]])
+def test_sample_writes_the_chosen_points(tmp_path, capfd):
+    write_cloud_ply(tmp_path / "in" / "a.ply", sphere_cloud(200))
+    words = ["sample", str(tmp_path / "in"), "-o", str(tmp_path / "out"), "--points", "16", *FAST, "--plot"]
+    assert main(words) == 0
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["a.npz", "a.ply", "a.png"]
+    assert len(read_shape(tmp_path / "out" / "a.ply")) == 16
+    with np.load(tmp_path / "out" / "a.npz") as stored:
+        assert len(stored["local_feature_size"]) == 200
+    assert "a.ply: chose 16 of 200 points" in capfd.readouterr().err
+
+
+def test_sample_says_which_file_failed(tmp_path, capfd):
+    write_cloud_ply(tmp_path / "a.ply", sphere_cloud(20))
+    words = ["sample", str(tmp_path / "a.ply"), "-o", str(tmp_path / "out"), "--sampler", "fps", "--points", "21"]
+    assert main(words) == 1
+    assert "a.ply: FAILED: 21 points are wanted, and it has only 20" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--sampler", "samplenet"], "name its file with --network"),
+        (["--sampler", "snet", "--network", "absent.pt"], "absent.pt: no trained generator"),
+        (["--noise"], "leave --noise out"),
+        (["--sampler", "skeleton_aware", "--network", "a.pt"], "--skeleton-network"),
+        (["--skeleton-network", "a.pt"], "leave --skeleton-network out"),
+        (["--surface", "bpa"], "surface 'bpa' is not configured"),
+        (["samplers.lfs.exponnt=0"], "did you mean 'samplers.lfs.exponent'"),
+        (["samplers.lfs.exponent=-1"], "exponent: expected a number from 0"),
+    ],
+)
+def test_a_sampler_that_cannot_run_is_refused_before_any_file(words, message, tmp_path, capfd):
+    write_cloud_ply(tmp_path / "a.ply", sphere_cloud(100))
+    assert main(["sample", str(tmp_path / "a.ply"), "-o", str(tmp_path / "out"), *words]) == 1
+    assert message in capfd.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_help_names_every_sampler(capsys):
+    with pytest.raises(SystemExit):
+        main(["sample", "--help"])
+    described = capsys.readouterr().out.partition("samplers without training:")[2]
+    assert [sampler for sampler in SAMPLERS if not re.search(rf"[ ,]{sampler}[ ,\n]", described)] == []
+
+
+@pytest.mark.parametrize("command", [[], ["run"], ["skeletonize"], ["sample"], ["config"]])
 def test_help_shows_examples(command, capsys):
     with pytest.raises(SystemExit) as ended:
         main([*command, "--help"])

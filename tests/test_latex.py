@@ -62,5 +62,11 @@ def test_special_characters(text, expected):
     assert escape(text) == expected
 
 
+def test_numbers_inside_a_cell_have_minus_signs_too():
+    line = Line("ours", ("0.4 (-0.2 to 1.0)", "-1.0 ± 2.0"), (False, True))
+    text = render_latex([MetricMatrix(find_metric("oa"), ("8", "16"), (MethodBlock("A", (line,)),))], "Title", [])
+    assert r"A & ours & 0.4 ($-$0.2 to 1.0) & \textbf{$-$1.0 $\pm$ 2.0} \\" in text
+
+
 def test_without_footnotes_there_is_no_empty_list():
     assert "enumerate" not in render_latex(MATRICES, "Title", [])

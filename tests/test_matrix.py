@@ -3,7 +3,7 @@ import math
 import pandas as pd
 import pytest
 
-from morphoskel.reporting.matrix import cell_text, metric_matrices
+from morphoskel.reporting.matrix import cell_text, metric_matrices, rivals
 from morphoskel.reporting.metrics import find_metric
 from morphoskel.reporting.table import COLUMNS
 
@@ -94,3 +94,42 @@ def test_only_rows_with_equally_many_balls_are_rivals():
     rows = [("A", 0.3), ("B", 0.2), ("A, 100 balls", 0.5), ("B, 100 balls", 0.4), ("B, 1024 balls", 0.1)]
     (matrix,) = metric_matrices(frame_of(*((name, "Mug", "cd_recon", value, math.nan, 1, 0) for name, value in rows)))
     assert [line(block, "ours").best[0] for block in matrix.blocks] == [False, True, False, True, False]
+
+
+def test_rows_under_another_classifier_are_no_rivals():
+    assert rivals("FPS, classifier without point dropout") != rivals("FPS")
+    assert rivals("MS3D, arg-max") == rivals("MS3D") == ""
+    rows = [("A", 60.0), ("B", 50.0)] + [(f"{name}, classifier without point dropout", 40.0) for name in "AB"]
+    (matrix,) = metric_matrices(frame_of(*((name, "8", "oa", value, math.nan, 1, 0) for name, value in rows)))
+    assert [line(block, "ours").best[0] for block in matrix.blocks] == [True, False, True, True]
+
+
+def test_ratios_are_sorted_by_size():
+    rows = [("A", "64"), ("A", "8"), ("B", "16"), ("B", "8")]
+    (matrix,) = metric_matrices(frame_of(*((name, group, "oa", 1.0, math.nan, 1, 0) for name, group in rows)))
+    assert matrix.groups == ("8", "16", "64")
+
+
+def test_companions_stand_behind_the_value_and_do_not_change_which_is_best():
+    (matrix,) = metric_matrices(
+        frame_of(
+            ("A", "8", "oa", 60.0, 50.0, 1, 0),
+            ("B", "8", "oa", 50.0, math.nan, 1, 0),
+            ("A", "8", "oa_interval", 1.23, math.nan, 1, 0),
+            ("A", "16", "oa", math.nan, math.nan, 0, 1),
+        )
+    )
+    first, second = matrix.blocks
+    assert line(first, "ours").cells == ("60.0 ± 1.2", "failed")
+    assert line(first, "ours").best == (True, False)
+    assert line(first, "paper").cells == ("50.0", None)
+    assert line(first, "difference").cells == ("+10.0", None)
+    assert line(second, "ours").cells == ("50.0", None)
+    assert matrix.heading == "Overall accuracy (%, higher is better), ± half-width of the 95 % interval over shapes"
+
+
+def test_two_companions_are_written_one_after_the_other():
+    rows = [("oa_difference", 0.4), ("oa_difference_high", 1.0), ("oa_difference_low", -0.2)]
+    (matrix,) = metric_matrices(frame_of(*(("A minus B", "8", name, value, math.nan, 1, 0) for name, value in rows)))
+    assert line(matrix.blocks[0], "ours").cells == ("0.4 (-0.2 to 1.0)",)
+    assert matrix.heading == "Difference of overall accuracies (points of %), 95 % interval over shapes"

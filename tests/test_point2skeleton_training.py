@@ -1,43 +1,12 @@
-from pathlib import Path
-
-import pytest
 from solids import sphere_cloud
 from tiny_point2skeleton import TINY
 
 from morphoskel.config import compose
 from morphoskel.datasets.configured import open_configured
-from morphoskel.datasets.manifest import ShapeRecord, build_manifest, write_manifest
-from morphoskel.errors import InputError
+from morphoskel.datasets.manifest import build_manifest, write_manifest
 from morphoskel.formats import write_cloud_ply
-from morphoskel.learning.point2skeleton_training import as_tuples, hold_out, train_on_split
+from morphoskel.learning.point2skeleton_training import as_tuples, train_on_split
 from morphoskel.networks.point2skeleton_network import load_point2skeleton
-
-
-def records(**shapes_of):
-    return [ShapeRecord(f"{category}{number}", category, "train", 0, Path(), "")
-            for category, count in shapes_of.items() for number in range(count)]  # fmt: skip
-
-
-def test_a_share_of_each_category_is_held_out():
-    training, validation = hold_out(records(a=10, b=5, c=1), 0.2, seed=1)
-    assert [sum(record.category == name for record in validation) for name in "abc"] == [2, 1, 0]
-    assert {record.id for record in training} | {record.id for record in validation} == {
-        record.id for record in records(a=10, b=5, c=1)
-    }
-    assert len(training) + len(validation) == 16
-
-
-def test_what_is_held_out_depends_on_the_seed_and_not_on_the_order():
-    shapes = records(a=20)
-    first, again, other = (hold_out(order, 0.2, seed)[1] for order, seed in ((shapes, 1), (shapes, 1), (shapes, 2)))
-    assert first == again != other
-
-
-def test_something_is_always_held_out():
-    training, validation = hold_out(records(a=1, b=1), 0.2, seed=1)
-    assert (len(training), len(validation)) == (1, 1)
-    with pytest.raises(InputError, match="at least 2 are needed"):
-        hold_out(records(a=1), 0.2, seed=1)
 
 
 def test_lists_of_lists_become_tuples():

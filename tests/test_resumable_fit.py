@@ -92,6 +92,17 @@ def test_a_killed_fit_goes_on_to_the_same_result(tmp_path, killed_at):
     assert [line[:3] for line in rows(tmp_path / "killed")] == [line[:3] for line in rows(tmp_path / "whole")]
 
 
+@pytest.mark.parametrize("killed_at", [7, 10])
+def test_no_epoch_is_repeated_that_was_worse_than_an_earlier_one(tmp_path, killed_at):
+    """With a rate so large that the loss goes up and down."""
+    whole = fit(Regression(rate=2.0), tmp_path / "whole", epochs=5)
+    with pytest.raises(KilledError):
+        fit(Regression(rate=2.0, killed_at=killed_at), tmp_path / "killed", epochs=5)
+    resumed = fit(Regression(rate=2.0), tmp_path / "killed", epochs=5)
+    assert resumed.seen == whole.seen[killed_at - 1 :]
+    assert torch.equal(resumed.line.weight, whole.line.weight)
+
+
 def test_a_finished_fit_is_not_repeated(tmp_path):
     first = fit(Regression(), tmp_path)
     again = fit(Regression(), tmp_path)

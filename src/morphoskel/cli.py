@@ -7,10 +7,15 @@ import logging
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from morphoskel import __version__
 from morphoskel.errors import MorphoSkelError
 from morphoskel.methods import METHODS
+from morphoskel.sampling.samplers import SAMPLERS
+
+if TYPE_CHECKING:
+    from morphoskel.batch import BatchResult
 
 logger = logging.getLogger("morphoskel")
 
@@ -52,6 +57,32 @@ surfaces: poisson, ball_pivoting, alpha_shape, ponq, repaired_poisson (mended wh
 `morphoskel config` prints all settings.
 """
 
+SAMPLE_EXAMPLES = """\
+examples:
+  morphoskel sample dragon.ply -o out --sampler lfs --points 128 --plot
+  morphoskel sample clouds/ -o out --sampler lfs --surface poisson samplers.lfs.exponent=0.5
+  morphoskel sample clouds/ -o out --sampler random --points 64 seed=7
+  morphoskel sample clouds/ -o out --sampler samplenet --network network.pt
+  morphoskel sample clouds/ -o out --sampler ms3d --network network.pt --noise
+
+samplers without training:
+  random          points drawn at random
+  fps             farthest points, starting with the first
+  lfs             farthest points, distances divided by the local feature size: more points in thin parts
+samplers with a network, which knows how many points it chooses:
+  snet, samplenet, metasampler
+                  generate points, each of which is replaced by the nearest of the cloud
+  skeleton_aware  skeleton-aware sampling; its skeletons come from --skeleton-network
+  ms3d, dpc, l1_medial
+                  the same, guided by the skeleton of that method
+  uniform, shuffled
+                  the same without a skeleton, and with weights in random order, for comparison
+Give the settings sampling.skeleton and sampling.surface that it was trained with; its file knows the others.
+
+Each input gives NAME.ply, the chosen points, and NAME.npz with their indices and, if it was measured, the local feature
+size of all points and the skeleton. Of a mesh, points are chosen among 2000 that are drawn on it.
+"""
+
 CONFIG_EXAMPLES = """\
 examples:
   morphoskel config
@@ -74,7 +105,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if parsed.command == "run":
             return _run(parsed, options)
-        return _skeletonize(parsed) if parsed.command == "skeletonize" else _show_config(parsed)
+        actions = {"skeletonize": _skeletonize, "sample": _sample, "config": _show_config}
+        return actions[parsed.command](parsed)
     except MorphoSkelError as error:
         logger.error("morphoskel: %s", error)
         return 1
@@ -104,9 +136,29 @@ def _parser() -> argparse.ArgumentParser:
                      help="how a cloud's surface is rebuilt (default: %(default)s; the paper's: poisson)")  # fmt: skip
     one.add_argument("--network", type=Path, metavar="PATH", help="file with a trained network, for point2skeleton")
     one.add_argument("--plot", action="store_true", help="also draw the balls, inside the surface if any, as PNG")
+    _add_sample(commands)
     config = _add(commands, "config", "print the configuration that the overrides give", CONFIG_EXAMPLES)
     config.add_argument("words", nargs="*", metavar="key=value", help="overrides")
     return parser
+
+
+def _add_sample(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    sample = _add(commands, "sample", "choose points of shapes of your own, for example more of them in thin parts",
+                  SAMPLE_EXAMPLES)  # fmt: skip
+    sample.add_argument("words", nargs="+", metavar="INPUT | key=value", help="files or folders, and overrides")
+    sample.add_argument("-o", "--output", type=Path, required=True, metavar="DIR", help="folder to write to")
+    sample.add_argument("--sampler", default="lfs", choices=SAMPLERS, metavar="NAME",
+                        help="the sampler (default: %(default)s)")  # fmt: skip
+    sample.add_argument("--points", type=int, metavar="N",
+                        help="points to choose (default: 128, or as many as the network was trained to)")  # fmt: skip
+    sample.add_argument("--surface", metavar="NAME",
+                        help="how a cloud is closed to find its skeleton (default: sampling.surface)")  # fmt: skip
+    sample.add_argument("--network", type=Path, metavar="PATH", help="file with the sampler's trained network")
+    sample.add_argument("--skeleton-network", type=Path, metavar="PATH",
+                        help="file with the network that predicts skeletons, for skeleton_aware")  # fmt: skip
+    sample.add_argument("--noise", action="store_true",
+                        help="let the network draw points instead of taking the most probable ones")  # fmt: skip
+    sample.add_argument("--plot", action="store_true", help="also draw the chosen points in their cloud, as PNG")
 
 
 def _add(
@@ -148,6 +200,28 @@ def _skeletonize(parsed: argparse.Namespace) -> int:
         network=parsed.network,
         plot=parsed.plot,
     )
+    return _report(result)
+
+
+def _sample(parsed: argparse.Namespace) -> int:
+    from morphoskel.config import compose
+    from morphoskel.sampling.sample_files import SamplingRequest, sample_files
+
+    config = compose([word for word in parsed.words if _is_override(word)])
+    inputs = [Path(word) for word in parsed.words if not _is_override(word)]
+    request = SamplingRequest(
+        parsed.sampler,
+        points=parsed.points,
+        surface=parsed.surface,
+        network=parsed.network,
+        skeleton_network=parsed.skeleton_network,
+        noise=parsed.noise,
+        plot=parsed.plot,
+    )
+    return _report(sample_files(inputs, parsed.output, config, request))
+
+
+def _report(result: BatchResult) -> int:
     for path in result.written:
         logger.info("wrote %s", path)
     for path, reason in result.failures.items():

@@ -18,6 +18,7 @@ if CONFIG.methods.point2skeleton:
             "../../environment.yml"
         threads: CONFIG.trainer.threads
         resources:
+            **TRAINING_DEVICES,
             mem_mb=8000,
             runtime=2880,
         params:
@@ -30,3 +31,92 @@ if CONFIG.methods.point2skeleton:
             digest=code_digest("learning.point2skeleton_training"),
         script:
             "../scripts/train_point2skeleton.py"
+
+
+rule train_classifier:
+    input:
+        clouds=CLOUDS.replace("{split}", "train"),
+    output:
+        f"{RESULTS}/networks/{{dataset}}/classifier/{{classifier}}/network.pt",
+    log:
+        "<logs>/train_classifier/{dataset}/{classifier}.log",
+    benchmark:
+        "<benchmarks>/train_classifier/{dataset}/{classifier}.tsv"
+    conda:
+        "../../environment.yml"
+    threads: CONFIG.trainer.threads
+    resources:
+        **TRAINING_DEVICES,
+        mem_mb=8000,
+        runtime=2880,
+    params:
+        settings=classifier_settings,
+        seed=CONFIG.seed,
+        validation_share=CONFIG.sampling.validation_share,
+        trainer=section("trainer"),
+        checkpoints=f"{RESULTS}/checkpoints/{{dataset}}/classifier/{{classifier}}",
+        digest=code_digest("learning.classifier_training"),
+    script:
+        "../scripts/train_classifier.py"
+
+
+if CONFIG.samplers.skeleton_aware:
+
+    rule train_skeleton_aware:
+        input:
+            clouds=CLOUDS.replace("{split}", "train").format(
+                dataset=CONFIG.dataset.name
+            ),
+        output:
+            f"<results>/networks/{CONFIG.dataset.name}/skeleton_aware/network.pt",
+        log:
+            "<logs>/train_skeleton_aware.log",
+        benchmark:
+            "<benchmarks>/train_skeleton_aware.tsv"
+        conda:
+            "../../environment.yml"
+        threads: CONFIG.trainer.threads
+        resources:
+            **TRAINING_DEVICES,
+            mem_mb=8000,
+            runtime=2880,
+        params:
+            settings=section("samplers", "skeleton_aware", "skeleton"),
+            seed=CONFIG.seed,
+            validation_share=CONFIG.sampling.validation_share,
+            trainer=section("trainer"),
+            checkpoints=f"{RESULTS}/checkpoints/{CONFIG.dataset.name}/skeleton_aware",
+            digest=code_digest("learning.skeleton_aware_training"),
+        script:
+            "../scripts/train_skeleton_aware.py"
+
+
+rule train_sampler:
+    input:
+        clouds=CLOUDS.replace("{split}", "train"),
+        priors=training_priors,
+        classifiers=judging_classifiers,
+    output:
+        TRAINED_SAMPLER,
+    log:
+        "<logs>/train_sampler/{dataset}/{sampler}/{ratio}/{seed}.log",
+    benchmark:
+        "<benchmarks>/train_sampler/{dataset}/{sampler}/{ratio}/{seed}.tsv"
+    conda:
+        "../../environment.yml"
+    threads: CONFIG.trainer.threads
+    resources:
+        **TRAINING_DEVICES,
+        mem_mb=8000,
+        runtime=2880,
+    params:
+        settings=sampler_settings,
+        prior=section("sampling", "prior"),
+        steps=CONFIG.sampling.steps,
+        validation_share=CONFIG.sampling.validation_share,
+        seed=CONFIG.seed,
+        trainer=section("trainer"),
+        checkpoints=f"{RESULTS}/checkpoints/{{dataset}}/sampler/{{sampler}}/{{ratio}}/{{seed}}",
+        digest=code_digest("learning.sampler_training"),
+    script:
+        "../scripts/train_sampler.py"

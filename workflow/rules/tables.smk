@@ -85,3 +85,84 @@ rule table_processing_time:
         digest=code_digest("reporting.skeleton_table_files"),
     script:
         "../scripts/write_table.py"
+
+
+rule table_object_classification:
+    input:
+        shapes=judged("shapes"),
+        draws=judged("draws"),
+        published=Path(workflow.basedir) / "config/paper/object_classification_oa.csv",
+    output:
+        csv="<results>/tables/object_classification.csv",
+        tex="<results>/tables/object_classification.tex",
+        md=report(
+            "<results>/tables/object_classification.md",
+            caption="../report/object_classification.rst",
+            category="Tables",
+        ),
+    log:
+        "<logs>/table_object_classification.log",
+    conda:
+        "../../environment.yml"
+    resources:
+        mem_mb=2000,
+        runtime=10,
+    params:
+        provenance=sampling_provenance(),
+        digest=code_digest("reporting.sampling_table_files"),
+    script:
+        "../scripts/write_sampling_table.py"
+
+
+rule table_point_cloud_retrieval:
+    input:
+        shapes=judged("shapes"),
+        draws=judged("draws"),
+        published=Path(workflow.basedir) / "config/paper/point_cloud_retrieval_map.csv",
+    output:
+        csv="<results>/tables/point_cloud_retrieval.csv",
+        tex="<results>/tables/point_cloud_retrieval.tex",
+        md=report(
+            "<results>/tables/point_cloud_retrieval.md",
+            caption="../report/point_cloud_retrieval.rst",
+            category="Tables",
+        ),
+    log:
+        "<logs>/table_point_cloud_retrieval.log",
+    conda:
+        "../../environment.yml"
+    resources:
+        mem_mb=2000,
+        runtime=10,
+    params:
+        provenance=sampling_provenance(),
+        digest=code_digest("reporting.sampling_table_files"),
+    script:
+        "../scripts/write_sampling_table.py"
+
+
+rule table_skeleton_prior:
+    input:
+        shapes=judged("shapes"),
+        draws=judged("draws"),
+        published=Path(workflow.basedir) / "config/paper/skeleton_prior_oa.csv",
+    output:
+        csv="<results>/tables/skeleton_prior.csv",
+        tex="<results>/tables/skeleton_prior.tex",
+        md=report(
+            "<results>/tables/skeleton_prior.md",
+            caption="../report/skeleton_prior.rst",
+            category="Tables",
+        ),
+    log:
+        "<logs>/table_skeleton_prior.log",
+    conda:
+        "../../environment.yml"
+    resources:
+        mem_mb=2000,
+        runtime=10,
+    params:
+        provenance=sampling_provenance(),
+        digest=code_digest("reporting.sampling_table_files"),
+    script:
+        "../scripts/write_sampling_table.py"

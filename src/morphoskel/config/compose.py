@@ -10,7 +10,7 @@ from morphoskel.config.explain import check_overrides, explain_validation
 from morphoskel.config.schema import Config
 from morphoskel.errors import ConfigError
 
-MEMBERS_OF = {"surface": "surface", "skeleton": "methods"}
+MEMBERS_OF = {"surface": "surface", "skeleton": "methods", "sampler": "samplers", "task": "tasks"}
 """Groups of which several members are chosen, and the sections that hold one entry for each."""
 
 

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, PositiveFloat, PositiveInt
 
 from morphoskel.config.dataset_sections import Dataset, Name
+from morphoskel.config.sampling_sections import Samplers, Sampling, Tasks
 from morphoskel.config.sections import Section, section_of
 from morphoskel.config.surface_sections import Surface
 from morphoskel.networks.point2skeleton_settings import Point2SkeletonSettings
@@ -129,6 +130,7 @@ class Trainer(Section):
     """How networks are trained."""
 
     accelerator: Literal["auto", "cpu", "gpu"] = Field(description="processor or graphics card")
+    devices: PositiveInt = Field(description="graphics cards of a training, or processes on a processor")
     threads: PositiveInt = Field(description="threads of the processor; results on a processor depend on it")
 
 
@@ -166,5 +168,8 @@ class Config(Section):
     methods: Methods = Methods()
     evaluation: Evaluation
     medial_axis: MedialAxis
+    sampling: Sampling
+    samplers: Samplers = Samplers()
+    tasks: Tasks = Tasks()
     trainer: Trainer
     timing: Timing

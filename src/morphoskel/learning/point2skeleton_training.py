@@ -7,15 +7,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from morphoskel.atomic import atomic_file
 from morphoskel.datasets.configured import open_configured
-from morphoskel.datasets.manifest import ShapeRecord, read_manifest
-from morphoskel.errors import InputError
+from morphoskel.datasets.manifest import read_manifest
+from morphoskel.learning.hold_out import hold_out
 from morphoskel.networks.point2skeleton_settings import Point2SkeletonSettings
 from morphoskel.provenance import content_hash
-from morphoskel.seeds import derive_seed
 
 logger = logging.getLogger(__name__)
 
@@ -66,7 +63,8 @@ def train_on_split(
     torch.set_num_threads(threads)
     settings = Point2SkeletonSettings(**{name: as_tuples(value) for name, value in network.items()})
     records = read_manifest(manifest, split=TRAINING_SPLIT)
-    training, validation = hold_out(records, validation_share, seed)
+    parts = hold_out([record.category for record in records], validation_share, seed)
+    training, validation = ([records[position] for position in part] for part in parts)
     logger.info("Point2Skeleton: %d shapes to train on, %d held out", len(training), len(validation))
     source = open_configured(dataset, seed=seed)
     clouds, held_out = ([source.load(record.path) for record in part] for part in (training, validation))
@@ -76,32 +74,6 @@ def train_on_split(
     )
     with atomic_file(result) as partial:
         partial.write_bytes(trained.read_bytes())
-
-
-def hold_out(records: list[ShapeRecord], share: float, seed: int) -> tuple[list[ShapeRecord], list[ShapeRecord]]:
-    """Return the shapes to train on and those held out, `share` of each category but not all of it.
-
-    Raises
-    ------
-    InputError
-        If nothing can be held out.
-    """
-    training: list[ShapeRecord] = []
-    validation: list[ShapeRecord] = []
-    for category in sorted({record.category for record in records}):
-        of_category = [record for record in records if record.category == category]
-        generator = np.random.default_rng(derive_seed(seed, category, "validation"))
-        order = generator.permutation(len(of_category))
-        count = min(round(share * len(of_category)), len(of_category) - 1)
-        validation += [of_category[i] for i in sorted(order[:count])]
-        training += [of_category[i] for i in sorted(order[count:])]
-    if not validation and len(training) > 1:
-        validation.append(training.pop())
-    if not validation:
-        raise InputError(
-            f"the training split has {len(records)} shapes; at least 2 are needed, one to train on and one held out"
-        )
-    return training, validation
 
 
 def as_tuples(value: Any) -> Any:

@@ -12,7 +12,7 @@ from typing import Any
 
 import lightning
 import torch
-from lightning.pytorch.callbacks import Callback, ModelCheckpoint
+from lightning.pytorch.callbacks import Callback, Checkpoint, ModelCheckpoint
 from lightning.pytorch.loggers import TensorBoardLogger
 
 from morphoskel.atomic import atomic_file
@@ -20,6 +20,7 @@ from morphoskel.seeds import derive_seed
 
 logger = logging.getLogger(__name__)
 
+LAST = "last.ckpt"
 LOG_COLUMNS = ("epoch", "training_loss", "validation_loss", "seconds")
 
 
@@ -155,6 +156,24 @@ class _LossTable(Callback):
         logger.info("%s: epoch %s, training loss %s, validation loss %s, %s s", self.path.stem, *rows[-1])
 
 
+class _LastEpoch(Checkpoint):
+    """Keep the state after the last epoch, which Lightning's own option does only if that epoch was the best so far.
+
+    Lightning calls its checkpoints in the order given, after other callbacks: this one must come after the best one, so
+    that it holds that one's state.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def on_train_epoch_end(self, trainer: lightning.Trainer, pl_module: lightning.LightningModule) -> None:
+        if trainer.world_size > 1:
+            trainer.save_checkpoint(self.path)  # every device takes part
+            return
+        with atomic_file(self.path) as partial:
+            trainer.save_checkpoint(partial)
+
+
 def resumable_fit(
     phase: BatchedPhase, epochs: int, folder: Path, *, accelerator: str, devices: int = 1, progress: bool = True
 ) -> None:
@@ -178,29 +197,29 @@ def resumable_fit(
     """
     logging.getLogger("lightning.pytorch").setLevel(logging.WARNING)  # it advertises at level INFO
     checkpoints = folder / phase.name
+    checkpoints.mkdir(parents=True, exist_ok=True)
     batches = len(phase.train_dataloader()) // devices
     phase.total_steps = epochs * batches
     with warnings.catch_warnings():
         _silence()
         trainer = _trainer(phase.name, epochs, folder, accelerator, devices, progress)
-        last = checkpoints / "last.ckpt"
+        last = checkpoints / LAST
         trainer.fit(phase, ckpt_path=last if last.exists() else None, weights_only=True)
     best = torch.load(checkpoints / "best.ckpt", map_location="cpu", weights_only=True)
     phase.load_state_dict(best["state_dict"])
 
 
 def _trainer(name: str, epochs: int, folder: Path, accelerator: str, devices: int, progress: bool) -> lightning.Trainer:
-    keep = ModelCheckpoint(
-        folder / name, "best", monitor="validation_loss", save_last=True, save_on_train_epoch_end=True,
-        enable_version_counter=False,
-    )  # fmt: skip
+    best = ModelCheckpoint(
+        folder / name, "best", monitor="validation_loss", save_on_train_epoch_end=True, enable_version_counter=False
+    )
     return lightning.Trainer(
         accelerator=accelerator,
         devices=devices,
         strategy="ddp_spawn" if devices > 1 else "auto",
         use_distributed_sampler=False,  # the phase deals its batches out itself
         max_epochs=epochs,
-        callbacks=[_LossTable(folder / f"{name}.csv"), keep],
+        callbacks=[_LossTable(folder / f"{name}.csv"), best, _LastEpoch(folder / name / LAST)],
         logger=TensorBoardLogger(folder / "curves", name=name, version=""),
         log_every_n_steps=1,
         default_root_dir=folder,

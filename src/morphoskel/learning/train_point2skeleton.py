@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
 import torch
 from torch import Tensor
 
-from morphoskel.atomic import atomic_file
 from morphoskel.errors import InputError
+from morphoskel.learning.claim import claim
 from morphoskel.learning.point2skeleton_phases import PRETRAIN, SKELETON, LinkPhase, SkeletalPointPhase
 from morphoskel.learning.resumable_fit import resumable_fit
 from morphoskel.networks.cloud_preparation import prepare_cloud
@@ -21,8 +19,6 @@ from morphoskel.seeds import derive_seed
 from morphoskel.shapes import FloatArray, PointCloud
 
 NETWORK_FILE = "network.pt"
-IDENTITY_FILE = "training.json"
-"""Says which training the checkpoints beside it belong to."""
 
 
 def train_point2skeleton(
@@ -80,7 +76,8 @@ def train_point2skeleton(
     """
     training_points = _prepare(clouds, settings.points, "training")
     validation_points = _prepare(validation, settings.points, "validation")
-    _claim(checkpoint_folder, settings, seed, (training_points, validation_points))
+    identity = {"settings": settings.as_mapping(), "seed": seed}
+    claim(checkpoint_folder, identity, [training_points, validation_points])
     result = checkpoint_folder / NETWORK_FILE
     if result.exists():
         return result
@@ -101,18 +98,3 @@ def _prepare(clouds: Sequence[PointCloud | FloatArray], points: int, role: str) 
     if not clouds:
         raise InputError(f"training Point2Skeleton needs at least one {role} cloud")
     return torch.stack([prepare_cloud(cloud, points).points for cloud in clouds])
-
-
-def _claim(folder: Path, settings: Point2SkeletonSettings, seed: int, clouds: tuple[Tensor, Tensor]) -> None:
-    """Write down which training the folder belongs to, or refuse to go on with another one's checkpoints."""
-    digests = [hashlib.sha256(part.numpy().tobytes()).hexdigest() for part in clouds]
-    identity = json.dumps({"settings": settings.as_mapping(), "seed": seed, "sha256_of_clouds": digests}, indent=2)
-    path = folder / IDENTITY_FILE
-    if not path.exists():
-        with atomic_file(path) as partial:
-            partial.write_text(identity)
-    elif path.read_text() != identity:
-        raise InputError(
-            f"{folder}: holds the checkpoints of a training with other settings, clouds or seed, see {path.name}; "
-            "choose another folder or delete this one"
-        )

@@ -19,6 +19,7 @@ SPECIAL = {
     "—": "---",
     "−": "$-$",
     "×": r"$\times$",
+    "±": r"$\pm$",
     "≤": r"$\leq$",
     "≥": r"$\geq$",
     "→": r"$\to$",
@@ -56,7 +57,7 @@ def _tabular(matrix: MetricMatrix) -> list[str]:
     columns = len(matrix.groups)
     lines = [
         "",
-        rf"\medskip\textbf{{{escape(matrix.metric.heading)}}}\par\smallskip",
+        rf"\medskip\textbf{{{escape(matrix.heading)}}}\par\smallskip",
         rf"\begin{{tabular}}{{ll{'r' * columns}}}",
         r"\toprule",
         _row(["Method", "", *map(escape, matrix.groups)]),
@@ -70,7 +71,7 @@ def _tabular(matrix: MetricMatrix) -> list[str]:
 
 def _cells(line: Line) -> list[str]:
     """Return the texts of a line, with minus signs rather than hyphens."""
-    texts = [ABSENT if text is None else re.sub(r"^-", "$-$", text) for text in line.cells]
+    texts = [ABSENT if text is None else re.sub(r"-(?=\d)", "$-$", escape(text)) for text in line.cells]
     return [rf"\textbf{{{text}}}" if best else text for text, best in zip(texts, line.best, strict=True)]
 
 

@@ -11,7 +11,7 @@ def render_markdown(matrices: Sequence[MetricMatrix], caption: str, footnotes: S
     """Return the text of a Markdown file: the caption, one table a metric, and the footnotes as a list."""
     parts = [escape(caption)]
     for matrix in matrices:
-        parts.extend((f"### {escape(matrix.metric.heading)}", _table(matrix)))
+        parts.extend((f"### {escape(matrix.heading)}", _table(matrix)))
     if footnotes:
         parts.append("\n".join(f"{number}. {escape(note)}" for number, note in enumerate(footnotes, start=1)))
     return "\n\n".join(parts) + "\n"

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from morphoskel.evaluation.averages import AVERAGES
-from morphoskel.reporting.metrics import METRICS, Metric, find_metric
+from morphoskel.reporting.metrics import METRICS, Metric
+from morphoskel.reporting.sampling_names import PLAIN_CLASSIFIER
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -49,21 +51,36 @@ class MethodBlock:
 
 @dataclass(frozen=True)
 class MetricMatrix:
-    """All values of one metric: methods as blocks of rows, groups as columns."""
+    """All values of one metric: methods as blocks of rows, groups as columns.
+
+    Parameters
+    ----------
+    metric, groups, blocks
+        What is shown.
+    companions
+        The metrics written behind the values of `metric`.
+    """
 
     metric: Metric
     groups: tuple[str, ...]
     blocks: tuple[MethodBlock, ...]
+    companions: tuple[Metric, ...] = ()
+
+    @property
+    def heading(self) -> str:
+        """Heading of the metric, then what its companions are."""
+        return ", ".join([self.metric.heading, *(companion.title for companion in self.companions if companion.title)])
 
 
 @dataclass(frozen=True)
 class _Cell:
-    """Numbers of one cell; NaN where there is none."""
+    """Numbers of one cell, NaN where there is none, and the text of the companions behind its value."""
 
     value: float
     paper: float
     n: int
     n_failed: int
+    behind: str = ""
 
 
 def metric_matrices(frame: pd.DataFrame) -> list[MetricMatrix]:
@@ -77,13 +94,23 @@ def metric_matrices(frame: pd.DataFrame) -> list[MetricMatrix]:
     Returns
     -------
     list
-        One matrix for each metric of `frame`, in the order of the registry.
+        One matrix for each metric of `frame` that is no part of another, in the order of the registry.
     """
     return [
-        _metric_matrix(find_metric(name), frame[frame["metric"] == name])
-        for name in METRICS
-        if (frame["metric"] == name).any()
+        _metric_matrix(metric, frame)
+        for name, metric in METRICS.items()
+        if not metric.part_of and (frame["metric"] == name).any()
     ]
+
+
+def rivals(method: str) -> str:
+    """Return what a row's name says of the conditions that it shares with its rivals; empty for the usual ones.
+
+    Only rows under the same conditions are compared for the best value: an equal number of balls, or another classifier
+    than that of the other rows.
+    """
+    found = re.search(rf", \d+ balls$|{re.escape(PLAIN_CLASSIFIER)}$", method)
+    return found.group() if found else ""
 
 
 def cell_text(value: float, n: int, n_failed: int, metric: Metric) -> str:
@@ -93,30 +120,45 @@ def cell_text(value: float, n: int, n_failed: int, metric: Metric) -> str:
     return NOT_RUN if n == 0 and n_failed == 0 else FAILED
 
 
-def _metric_matrix(metric: Metric, rows: pd.DataFrame) -> MetricMatrix:
-    """Lay out the rows of one metric."""
-    # A method may have groups that the methods before it lack, so that appearance alone would put them behind averages.
-    groups = tuple(sorted(dict.fromkeys(map(str, rows["group"])), key=lambda group: group in AVERAGES))
+def _metric_matrix(metric: Metric, frame: pd.DataFrame) -> MetricMatrix:
+    """Lay out the rows of one metric, with those of its companions behind them."""
+    rows = frame[frame["metric"] == metric.name]
+    companions = tuple(
+        other for other in METRICS.values() if other.part_of == metric.name and (frame["metric"] == other.name).any()
+    )
+    behind = _texts_behind(frame, companions)
+    # A method may have groups that the methods before it lack, so that appearance alone would put them behind averages,
+    # and a small ratio behind a large one.
+    groups = tuple(sorted(dict.fromkeys(map(str, rows["group"])), key=_order_of_groups))
     cells: dict[str, dict[str, _Cell]] = {}
     columns = ("method", "group", "value", "paper", "n", "n_failed")
     for method, group, value, paper, n, n_failed in zip(*(rows[column] for column in columns), strict=True):
-        cells.setdefault(str(method), {})[str(group)] = _Cell(float(value), float(paper), int(n), int(n_failed))
+        cells.setdefault(str(method), {})[str(group)] = _Cell(
+            float(value), float(paper), int(n), int(n_failed), behind.get((str(method), str(group)), "")
+        )
     best = {
-        rivals: {
-            group: _best([row[group].value for name, row in cells.items() if _balls(name) == rivals and group in row],
-                         metric)
-            for group in groups
-        }
-        for rivals in {_balls(name) for name in cells}
-    }  # fmt: skip
-    blocks = tuple(_method_block(method, row, groups, best[_balls(method)], metric) for method, row in cells.items())
-    return MetricMatrix(metric, groups, blocks)
+        condition: {group: _best([row[group].value for row in compared if group in row], metric) for group in groups}
+        for condition in {rivals(name) for name in cells}
+        for compared in [[row for name, row in cells.items() if rivals(name) == condition]]
+    }
+    blocks = tuple(_method_block(method, row, groups, best[rivals(method)], metric) for method, row in cells.items())
+    return MetricMatrix(metric, groups, blocks, companions)
 
 
-def _balls(method: str) -> str:
-    """Return the equal count at the end of a row's name, if there is one: only such rows are rivals of each other."""
-    found = re.search(r", \d+ balls$", method)
-    return found.group() if found else ""
+def _order_of_groups(group: str) -> tuple[bool, int]:
+    """Sort ratios by size and averages last; categories keep their places."""
+    return group in AVERAGES, int(group) if group.isdecimal() else 0
+
+
+def _texts_behind(frame: pd.DataFrame, companions: Sequence[Metric]) -> dict[tuple[str, str], str]:
+    """Return the text of all companions by method and group; a companion without a value has none."""
+    texts: dict[tuple[str, str], str] = {}
+    for companion in companions:
+        rows = frame[(frame["metric"] == companion.name) & frame["value"].notna()]
+        for method, group, value in zip(rows["method"], rows["group"], rows["value"], strict=True):
+            key = (str(method), str(group))
+            texts[key] = texts.get(key, "") + companion.form.format(cell_text(float(value), 1, 0, companion))
+    return texts
 
 
 def _best(values: list[float], metric: Metric) -> str | None:
@@ -145,9 +187,11 @@ def _method_block(
         for cell in cells
     )
     plain = (False,) * len(groups)
+    is_best = tuple(text is not None and text == best[group] for text, group in zip(ours, groups, strict=True))
+    complete = tuple(None if text is None else text + cell.behind for text, cell in zip(ours, cells, strict=True))
     lines = (
         Line("paper", paper, plain),
-        Line("ours", ours, tuple(text is not None and text == best[g] for text, g in zip(ours, groups, strict=True))),
+        Line("ours", complete, is_best),
         Line("difference", difference, plain),
     )
     return MethodBlock(method, tuple(line for line in lines if line.label == "ours" or any(line.cells)))

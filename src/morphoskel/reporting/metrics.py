@@ -22,6 +22,10 @@ class Metric:
         Number of decimals shown, as many as the paper prints.
     better
         Which direction is better; ``None`` if rows are not rivals, and no value is to be set in bold.
+    part_of
+        Name of the metric in whose cells readers see this one; empty if it has a table of its own.
+    form
+        How it is written there, behind the other value, with ``{}`` for the number.
     """
 
     name: str
@@ -29,6 +33,8 @@ class Metric:
     unit: str
     decimals: int
     better: Literal["lower", "higher"] | None
+    part_of: str = ""
+    form: str = "{}"
 
     @property
     def heading(self) -> str:
@@ -53,8 +59,19 @@ METRICS = {
         Metric("seconds", "Time a shape", "seconds", 2, None),
         Metric("seconds_total", "Time of all shapes", "seconds", 2, None),
         Metric("shapes", "Shapes", "count", 0, None),
+        Metric("oa_all_points", "Overall accuracy of all points, without sampling", "%", 1, None),
         Metric("oa", "Overall accuracy", "%", 1, "higher"),
+        Metric("oa_interval", "± half-width of the 95 % interval over shapes", "", 1, None, "oa", " ± {}"),
+        Metric("oa_difference", "Difference of overall accuracies", "points of %", 1, None),
+        Metric("oa_difference_low", "95 % interval over shapes", "", 1, None, "oa_difference", " ({}"),
+        Metric("oa_difference_high", "", "", 1, None, "oa_difference", " to {})"),
+        Metric("mcnemar_p", "P-value of McNemar's exact test, equal accuracies", "", 4, None),
+        Metric("oa_draws", "Overall accuracy, standard deviation over draws", "points of %", 2, None),
+        Metric("map_all_points", "Mean average precision of all points, without sampling", "%", 1, None),
         Metric("map", "Mean average precision", "%", 1, "higher"),
+        Metric("map_interval", "± half-width of the 95 % interval over shapes", "", 1, None, "map", " ± {}"),
+        Metric("map_excluded", "Mean average precision, the query itself left out", "%", 1, "higher"),
+        Metric("distinct_points", "Distinct points", "mean number a shape", 1, None),
         Metric("miou", "Mean intersection over union", "%", 1, "higher"),
     )
 }

@@ -1,0 +1,108 @@
+"""Write the sampling tables from the per-shape and per-draw results of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from morphoskel.errors import InputError
+from morphoskel.reporting.sampling_names import SAMPLING_TABLES
+from morphoskel.reporting.sampling_rows import DRAW_COLUMNS, SHAPE_COLUMNS
+from morphoskel.reporting.sampling_tables import build_sampling_table
+from morphoskel.reporting.table import compose_caption, write_table
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+TITLES = {
+    "object_classification": "Accuracy of the task network on the points that each sampler chooses",
+    "point_cloud_retrieval": "Retrieval by the task network's descriptors of the points that each sampler chooses",
+    "skeleton_prior": "Accuracy on the points that the skeleton-aware sampler chooses, by the skeleton of its prior",
+}
+NOT_SHAPES = ("oa_difference", "oa_difference_low", "oa_difference_high", "mcnemar_p")
+"""Metrics of differences between rows."""
+
+TEXT = ("sampler", "ratio", "choice", "classifier", "id", "category", "status", "reason")
+"""Columns that are read as they stand: a category may be called nan, and a ratio is a name here."""
+
+WHOLE = ("seed", "draw")
+
+
+def write_sampling_table(
+    name: str,
+    shape_rows: Sequence[Path],
+    draw_rows: Sequence[Path],
+    published_folder: Path,
+    stem: Path,
+    provenance: Mapping[str, Any],
+) -> None:
+    """Write one of the tables in :data:`TITLES` as CSV, Markdown and LaTeX.
+
+    Parameters
+    ----------
+    name
+        Name of the table.
+    shape_rows, draw_rows
+        CSV files of per-shape and of per-draw results, one a sampler, with the columns
+        :data:`morphoskel.reporting.sampling_rows.SHAPE_COLUMNS` and
+        :data:`morphoskel.reporting.sampling_rows.DRAW_COLUMNS`. Without any file the table says what was not run.
+    published_folder
+        The folder ``config/paper``.
+    stem
+        Path of the files without the suffix.
+    provenance
+        For the caption: ``dataset``, ``seed`` (of the experiment), ``seeds`` (number of trainings of each learned
+        sampler), ``draws`` (number), ``budget`` (text, how long a training is), ``protocol`` and ``config`` (hash).
+
+    Raises
+    ------
+    InputError
+        If there is no such table, a file cannot be read, or the rows are not what they should be.
+    """
+    if name not in SAMPLING_TABLES:
+        raise InputError(f"no such table {name!r}; legal are {', '.join(SAMPLING_TABLES)}")
+    table = build_sampling_table(
+        name,
+        _read(shape_rows, SHAPE_COLUMNS),
+        _read(draw_rows, DRAW_COLUMNS),
+        published_folder,
+        dataset=provenance["dataset"],
+        protocol=provenance["protocol"],
+    )
+    title = (
+        f"{TITLES[name]}; draws: {provenance['draws']}; trainings of each learned sampler: {provenance['seeds']}, "
+        f"{provenance['budget']}"
+    )
+    caption = compose_caption(title, _counted(table.frame, provenance["seed"]), provenance["config"])
+    write_table(table.frame, stem, caption, table.footnotes)
+
+
+def _counted(frame: pd.DataFrame, seed: int) -> pd.DataFrame:
+    """Return what a caption counts: samplers, however they choose and are judged, with the seed of the run."""
+    rows = frame[~frame["metric"].isin(NOT_SHAPES)]
+    return rows.assign(method=rows["method"].str.split(", ").str[0], seeds=seed)
+
+
+def _read(paths: Sequence[Path], columns: tuple[str, ...]) -> pd.DataFrame:
+    """Read CSV files of the same columns one below the other; without files there are no rows."""
+    import pandas as pd
+
+    types: dict[str, Any] = {name: str if name in TEXT else int if name in WHOLE else float for name in columns}
+    frames = [pd.DataFrame({name: pd.Series(dtype=kind) for name, kind in types.items()})]
+    empty = {name: ["", "nan"] for name, kind in types.items() if kind is float}
+    for path in paths:
+        if not path.is_file():
+            raise InputError(
+                f"{path}: no such file; expected results of a sampler with the columns {', '.join(columns)}"
+            )
+        present = pd.read_csv(path, nrows=0).columns
+        missing = [name for name in columns if name not in present]
+        if missing:
+            raise InputError(f"{path}: the columns {', '.join(missing)} are missing; expected {', '.join(columns)}")
+        try:
+            frame = pd.read_csv(path, usecols=list(columns), dtype=types, keep_default_na=False, na_values=empty)
+        except ValueError as error:
+            raise InputError(f"{path}: a value is not a number: {error}") from error
+        frames.append(frame[list(columns)])
+    return pd.concat(frames[1:] or frames, ignore_index=True)

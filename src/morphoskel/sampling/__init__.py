@@ -1,0 +1,1 @@
+"""Choosing a few of the points of a cloud."""

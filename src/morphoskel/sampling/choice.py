@@ -1,0 +1,63 @@
+"""Points chosen of the clouds of a split, and the file that holds them."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from morphoskel.atomic import atomic_file
+from morphoskel.errors import InputError
+
+FIXED = "fixed"
+"""Of a sampler that always chooses the same points."""
+
+DRAWN = "drawn"
+"""Of a sampler with noise: one choice a draw, in which points may repeat."""
+
+ARGMAX = "argmax"
+"""Of a sampler with noise, without it."""
+
+COMPLETED = "completed"
+"""Drawn, then without repetitions and with farthest points in their place."""
+
+
+@dataclass(frozen=True, eq=False)
+class Choice:
+    """Points chosen of every cloud of a split.
+
+    Parameters
+    ----------
+    indices
+        ``(D, S, M)`` int32, of D draws; -1 for a shape of which nothing could be chosen.
+    distinct
+        ``(D, S)`` int32, different points among them; of generated points, those before completion.
+    """
+
+    indices: npt.NDArray[np.int32]
+    distinct: npt.NDArray[np.int32]
+
+
+def write_choice(choice: Choice, path: Path) -> None:
+    """Write a choice to an NPZ file, whole or not at all."""
+    with atomic_file(path) as partial, partial.open("wb") as stream:
+        np.savez_compressed(stream, indices=choice.indices, distinct=choice.distinct)
+
+
+def read_choice(path: Path) -> Choice:
+    """Read the file of :func:`write_choice`.
+
+    Raises
+    ------
+    InputError
+        If it is absent or is not such a file.
+    """
+    try:
+        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
+            return Choice(**{field.name: stored[field.name] for field in fields(Choice)})
+    except (OSError, EOFError, KeyError, TypeError, ValueError, zipfile.BadZipFile, zlib.error) as error:
+        raise InputError(f"{path}: expected a file of chosen points ({error}); make it again") from error
