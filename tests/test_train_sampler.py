@@ -192,9 +192,11 @@ def test_several_classifiers_judge_a_generator(tmp_path):
     assert not same_weights(first, second)
 
 
-@pytest.mark.parametrize(("steps", "epochs"), [(1, 1), (3, 1), (4, 2), (6, 2)])
-def test_steps_are_rounded_up_to_whole_epochs(tmp_path, steps, epochs):
-    assert len(losses(train(tmp_path, steps=steps))) == epochs  # of three batches each
+@pytest.mark.parametrize(("steps", "epochs"), [(1, 1), (3, 1), (4, 2), (6, 2), (8, 3)])
+def test_steps_are_spread_over_epochs_of_equal_length(tmp_path, monkeypatch, steps, epochs):
+    batches, _ = seen_by(monkeypatch, tmp_path, "ms3d", steps=steps)
+    assert len(losses(tmp_path / "network.pt")) == epochs  # of at most three batches each
+    assert len(batches) == -(-steps // epochs) * epochs
 
 
 def test_shapes_without_a_skeleton_are_left_out_of_both_parts(tmp_path, monkeypatch, caplog):

@@ -61,10 +61,13 @@ class BatchedPhase(lightning.LightningModule):
 
     Attributes
     ----------
+    most_batches
+        Batches an epoch; those beyond are left out, other shapes in every epoch. ``None`` takes all.
     total_steps
         Steps of the whole training, for schedules; set by :func:`resumable_fit`.
     """
 
+    most_batches: int | None = None
     total_steps: int = 0
 
     def __init__(
@@ -96,7 +99,7 @@ class BatchedPhase(lightning.LightningModule):
         seed = derive_seed(self.seed, self.name, "order", str(self.current_epoch))
         order = torch.randperm(shapes, generator=torch.Generator().manual_seed(seed))
         size = min(self.batch_size, shapes)
-        parts = torch.split(order[: shapes - shapes % size], size)
+        parts = torch.split(order[: shapes - shapes % size], size)[: self.most_batches]
         rank, devices = self._rank_and_devices()
         return Batches(self.training_tensors, parts[rank : len(parts) - len(parts) % devices : devices])
 

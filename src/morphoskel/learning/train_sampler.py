@@ -45,7 +45,8 @@ class SamplerTraining:
     settings
         Of the network.
     steps
-        Steps to train for, to the next whole epoch; ``None``: as many epochs as the settings say.
+        Steps to train for, in epochs of equal length that may leave shapes out; ``None``: as many whole epochs as the
+        settings say.
     validation_share
         Share of the shapes of each class held out to choose the epoch.
     seed
@@ -132,17 +133,28 @@ def train_sampler(
         return result
     with torch.random.fork_rng():
         phase, save = _phase(training, data[0], data[1], tuple(classifiers))
-        steps_per_epoch = len(phase.train_dataloader()) // devices
-        if steps_per_epoch == 0:
-            raise InputError(f"{len(parts[0])} shapes make too few batches for {devices} devices; use fewer of them")
-        epochs = training.settings.epochs if training.steps is None else -(-training.steps // steps_per_epoch)
+        epochs = _plan_epochs(phase, training, devices)
         logger.info(
             "%s, %d points: %d shapes, %d held out; %d epochs of %d steps",
-            training.sampler, training.samples, *map(len, parts), epochs, steps_per_epoch,
+            training.sampler, training.samples, *map(len, parts), epochs, len(phase.train_dataloader()) // devices,
         )  # fmt: skip
         resumable_fit(phase, epochs, folder, accelerator=accelerator, devices=devices, progress=progress)
     save(result)
     return result
+
+
+def _plan_epochs(phase: BatchedPhase, training: SamplerTraining, devices: int) -> int:
+    """Return the number of epochs, and shorten each so that their steps add up to those wanted."""
+    steps_per_epoch = len(phase.train_dataloader()) // devices
+    if steps_per_epoch == 0:
+        raise InputError(
+            f"{len(phase.training_tensors[0])} shapes make too few batches for {devices} devices; use fewer of them"
+        )
+    if training.steps is None:
+        return training.settings.epochs
+    epochs = -(-training.steps // steps_per_epoch)
+    phase.most_batches = -(-training.steps // epochs) * devices
+    return epochs
 
 
 def _check(
