@@ -28,7 +28,8 @@ class Sampling(Section):
     seeds: PositiveInt = Field(description="trainings of each learned sampler at each ratio")
     draws: PositiveInt = Field(description="choices that a random sampler makes of each test cloud")
     steps: PositiveInt | None = Field(
-        description="steps that every learned sampler is trained for, instead of its own number of epochs; null: its own"
+        description="steps that every learned sampler is trained for, instead of its own number of epochs; "
+        "null: as long as its epochs say"
     )
     validation_share: Annotated[float, Field(gt=0, lt=1)] = Field(
         description="share of the training shapes of each class held out to choose the epoch of all networks"
