@@ -7,12 +7,14 @@ import pytest
 
 CHAIN = """
 import numpy as np
+import torch
 from solids import torus
 import morphoskel.chain.compiler
 from morphoskel import skeletonize
 from morphoskel.formats.sample import sample_surface
 from morphoskel.methods import METHODS
 from morphoskel.morphology import dilation, opening
+from morphoskel.networks.edge_features import EdgeFeatures
 from morphoskel.skeleton import ms3d
 from morphoskel.skeleton.medial_axis import medial_axis_of_mesh
 from morphoskel.volume import Candidates
@@ -25,6 +27,9 @@ for method in set(METHODS) - {"point2skeleton"}:
     skeletonize(cloud, method=method, candidates=5000, points=16, threads=2)
 skeletonize(torus(), method="coverage_axis", candidates=5000, points=16, settings={"penalty": "standardised"})
 medial_axis_of_mesh(torus(), np.random.default_rng(0), samples=2000)
+features = EdgeFeatures(k=20, channels=(16, 32), global_features=16, head=(16, 8))
+features(torch.rand(2, 64, 3)).sum().backward()
+features.eval()(torch.rand(1, 64, 3))
 """
 
 

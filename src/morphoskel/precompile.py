@@ -41,10 +41,11 @@ def precompile() -> None:
     opening(skeleton.points.astype(np.float32), skeleton.radii.astype(np.float32))
     medial_axis_of_mesh(tetrahedron, generator, samples=500, separation_angle=0.0, scale=0.0)
     _skeletonize_ball(generator)
+    _train_edge_convolution()
 
 
 def _skeletonize_ball(generator: np.random.Generator) -> None:
-    """Run the methods that read the cloud alone; a network has no kernels."""
+    """Run the methods that read the cloud alone; Point2Skeleton has no kernels."""
     from morphoskel.run_method import skeleton_of_cloud
     from morphoskel.shapes import PointCloud
 
@@ -52,6 +53,16 @@ def _skeletonize_ball(generator: np.random.Generator) -> None:
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
     for method in ("l1_medial", "dpc"):
         skeleton_of_cloud(method, PointCloud(directions, normals=directions), generator, settings={})
+
+
+def _train_edge_convolution() -> None:
+    """Run the layers of the skeleton-aware networks forwards and backwards."""
+    import torch
+
+    from morphoskel.networks.edge_features import EdgeFeatures
+
+    features = EdgeFeatures(k=4, channels=(8,), global_features=8, head=(8,))
+    features(torch.linspace(0, 1, 192).reshape(2, 32, 3)).sum().backward()
 
 
 if __name__ == "__main__":
