@@ -59,6 +59,7 @@ def test_a_group_can_be_given_as_one_or_as_a_list():
         ("skeleton=[dpc]", r"skeleton\.k: missing"),
         ("skeleton.selection=[residue,largest]", r"skeleton\.selection\.1: .*'residue' or 'coverage'"),
         ("skeleton.selection=[]", r"skeleton\.selection: .*at least 1 item"),
+        ("samplers.fps.start=1", r"samplers\.fps\.start: no such key; samplers\.fps has no settings"),
         ("methods.dpc.stp=1", r"methods\.dpc\.stp: no such key; did you mean 'methods\.dpc\.step'"),
         ("methods.dpc.step=-1", r"methods\.dpc: .*step: expected a finite number that is not negative, got -1"),
         ("methods.l1_medial.samples=1", r"methods\.l1_medial: .*samples must be from 2"),

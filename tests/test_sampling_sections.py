@@ -109,7 +109,7 @@ def test_legal_values(values, key, value):
         ("sampling.ratios", [1025], "sampling: ratios: expected different numbers of at most 1024"),
         ("sampling.seeds", 0, r"sampling\.seeds: .*greater than 0.*trainings"),
         ("sampling.draws", 0, r"sampling\.draws: .*greater than 0.*choices"),
-        ("sampling.steps", 0, r"sampling\.steps: .*greater than 0.*null: its own"),
+        ("sampling.steps", 0, r"sampling\.steps: .*greater than 0.*null: as long as its epochs say"),
         ("sampling.validation_share", 0, r"sampling\.validation_share: .*greater than 0"),
         ("sampling.validation_share", 1, r"sampling\.validation_share: .*less than 1"),
         ("sampling.skeleton", "dpc", r"sampling\.skeleton: .*'ms3d' or 'ms3d_coverage'"),

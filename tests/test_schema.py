@@ -32,7 +32,8 @@ def test_every_value_is_used():
         if path.suffix in (".py", ".smk") and not DECLARES_KEYS.fullmatch(path.name)
     )
     unused = [key for key in _all_keys(Config) if key.split(".")[-1] not in code]
-    assert unused == []
+    gathered = "sampling.network.temperature_"  # by a property of the settings
+    assert [key for key in unused if not key.startswith(gathered)] == []
 
 
 def test_unknown_keys_are_refused_everywhere():

@@ -74,7 +74,10 @@ def explain_validation(error: ValidationError, values: Mapping[str, Any]) -> str
 
 def _explain_unknown(key: str, groups: Mapping[str, Iterable[str]]) -> str:
     parents = key.split(".")[:-1]
-    known = [name for model in _models(parents, Config) for name in model.model_fields]
+    sections = _models(parents, Config)
+    if sections and not any(model.model_fields for model in sections):
+        return f"{key}: no such key; {'.'.join(parents)} has no settings"
+    known = [name for model in sections for name in model.model_fields]
     if not known:
         return f"{key}: no such key; {_legal(key, [*_all_keys(Config), *groups])}"
     legal = [".".join([*parents, name]) for name in known]

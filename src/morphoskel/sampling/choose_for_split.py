@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from morphoskel.atomic import atomic_folder
 from morphoskel.errors import InputError
@@ -14,10 +14,7 @@ from morphoskel.sampling.choose_points import Request, choose_points
 from morphoskel.sampling.lfs import LfsSettings
 from morphoskel.sampling.prior import PriorSettings
 from morphoskel.sampling.samplers import GENERATORS, LEARNED
-
-if TYPE_CHECKING:
-    from morphoskel.networks.point_generator import PointGenerator
-    from morphoskel.networks.skeleton_sampler import SkeletonSampler
+from morphoskel.sampling.trained import load_trained
 
 logger = logging.getLogger(__name__)
 
@@ -82,7 +79,7 @@ def choose_for_split(
             chosen = choose_points(
                 request,
                 shapes,
-                network=_load(sampler, trained[ratio, number]) if trained else None,
+                network=load_trained(sampler, trained[ratio, number]) if trained else None,
                 weights=weights,
                 sizes=sizes.distances if sizes else None,
                 lfs=LfsSettings(**lfs) if lfs else None,
@@ -119,10 +116,3 @@ def _ratio_and_number(network: Path) -> tuple[int, int]:
         return int(network.parent.parent.name), int(network.parent.name)
     except ValueError as error:
         raise InputError(f"{network}: expected its folders to be named by ratio and number of the training") from error
-
-
-def _load(sampler: str, path: Path) -> PointGenerator | SkeletonSampler:
-    from morphoskel.networks.point_generator import load_generator
-    from morphoskel.networks.skeleton_sampler import load_skeleton_sampler
-
-    return load_generator(path) if sampler in GENERATORS else load_skeleton_sampler(path)
