@@ -18,6 +18,8 @@ pytestmark = pytest.mark.workflow
 
 EXPERIMENTS = sorted(path.stem for path in (REPOSITORY / "config" / "experiment").glob("*.yaml"))
 TABLES = ["skeleton_reconstruction", "surface_reconstruction", "processing_time"]
+SAMPLING_TABLES = ["object_classification", "point_cloud_retrieval", "skeleton_prior"]
+EVERY_TABLE = [f"table_{name}" for name in TABLES + SAMPLING_TABLES]
 CHAIN = ["reconstruct", "watertight", "occupancy", "udf", "dilation", "select_skeleton"]
 
 
@@ -148,12 +150,45 @@ def test_a_second_run_has_nothing_to_do(smoke):
 def test_a_new_k_reruns_the_dilation_and_what_follows(smoke):
     rules = planned(smoke[0], "skeleton.k=10")
     assert rules == {"dilation", "select_skeleton", "cover_skeleton", "evaluate_skeletons", "time_stages",
-                     "figure_skeletons", "figure_explanation", "write_config",
-                     *(f"table_{name}" for name in TABLES)}  # fmt: skip
+                     "figure_skeletons", "figure_explanation", "write_config", *EVERY_TABLE,
+                     "local_feature_size", "train_sampler", "choose_points", "evaluate_samples"}  # fmt: skip
+
+
+def test_only_samplers_with_a_skeleton_of_ms3d_are_trained_again_for_a_new_k(smoke):
+    output = run(smoke[0], "experiment=smoke", "skeleton.k=10", "--", "--dry-run")
+    assert set(re.findall(r"networks/synthetic_smoke/sampler/(\w+)/8/0/network.pt$", output, re.MULTILINE)) == {
+        "ms3d",
+        "shuffled",
+    }
+
+
+def test_every_sampler_is_judged_by_both_classifiers(smoke):
+    """Two steps teach nothing: what is tested is that every row is there, computed, and legal."""
+    published = {"FPS", "S-NET", "SampleNet", "MetaSampler", "SA", "MS3D"}
+    for table, metric in (("object_classification", "oa"), ("point_cloud_retrieval", "map")):
+        frame = pd.read_csv(smoke[0] / f"results/smoke/tables/{table}.csv", keep_default_na=False)
+        measured = frame[(frame["value"] != "not run") & (frame["group"] == "8") & (frame["metric"] == metric)]
+        twins = {f"{method}, classifier without point dropout" for method in published}
+        assert published | {"Random", "LFS-weighted FPS"} | twins <= set(measured["method"])
+        assert measured["value"].astype(float).between(0, 100).all()
+        assert (measured["n"].astype(int) == 4).all()
+        assert set(frame.loc[frame["group"] == "16", "value"]) == {"not run"}
+    frame = pd.read_csv(smoke[0] / "results/smoke/tables/skeleton_prior.csv", keep_default_na=False)
+    assert {"SA", "MS3D", "DPC", "L1", "uniform prior", "shuffled prior"} <= set(frame["method"])
+    differences = set(frame.loc[frame["metric"] == "oa_difference", "method"])
+    assert {"MS3D minus SA", "MS3D minus uniform prior", "MS3D minus shuffled prior"} <= differences
+
+
+def test_trainings_leave_logs_and_curves(smoke):
+    folders = list((smoke[0] / "results/smoke/checkpoints").rglob("training.json"))
+    assert len(folders) == 5 - 1 + 9 + 1 + 1  # two teachers instead of three, samplers, two skeleton networks
+    for folder in (path.parent for path in folders):
+        assert list(folder.glob("*.csv"))
+        assert list(folder.glob("curves/*/events*"))
 
 
 def test_a_new_protocol_rewrites_the_tables_only(smoke):
-    assert planned(smoke[0], "protocol=released") == {"write_config", *(f"table_{name}" for name in TABLES)}
+    assert planned(smoke[0], "protocol=released") == {"write_config", *EVERY_TABLE}
 
 
 def test_a_docstring_reruns_nothing(restored):
