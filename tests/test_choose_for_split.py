@@ -8,10 +8,8 @@ from tiny_clouds import seeded, select, tiny_classifier, tiny_clouds, tiny_prior
 from tiny_generator import TINY
 from tiny_skeleton_aware import TINY_SAMPLER
 
+from morphoskel.datasets.cloud_set import read_cloud_set, write_cloud_set
 from morphoskel.errors import InputError
-from morphoskel.learning.cloud_set import read_cloud_set, write_cloud_set
-from morphoskel.learning.prior_set import write_prior_set
-from morphoskel.learning.sampler_weights import sampler_weights
 from morphoskel.networks.point_generator import PointGenerator, save_generator
 from morphoskel.networks.pointnet_classifier import save_classifier
 from morphoskel.networks.skeleton_sampler import SkeletonSampler, save_skeleton_sampler
@@ -20,6 +18,8 @@ from morphoskel.sampling.choose_for_split import choose_for_split, read_choices
 from morphoskel.sampling.choose_points import Request, choose_points
 from morphoskel.sampling.lfs import LfsSettings, lfs_points
 from morphoskel.sampling.prior import PriorSettings
+from morphoskel.sampling.prior_set import write_prior_set
+from morphoskel.sampling.sampler_weights import sampler_weights
 
 CLOUDS = tiny_clouds(shapes=5)
 PRIORS = tiny_priors(CLOUDS, failed=(2,))

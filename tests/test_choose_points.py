@@ -9,13 +9,13 @@ from tiny_generator import TINY
 from tiny_skeleton_aware import TINY_SAMPLER
 
 from morphoskel.errors import ConfigError, InputError
-from morphoskel.learning.sampler_weights import sampler_weights
 from morphoskel.networks.point_generator import PointGenerator
 from morphoskel.networks.skeleton_sampler import SkeletonSampler
 from morphoskel.sampling import choose_points as choosing
 from morphoskel.sampling.choose_points import Request, choose_points
 from morphoskel.sampling.lfs import LfsSettings, lfs_points
 from morphoskel.sampling.prior import PriorSettings
+from morphoskel.sampling.sampler_weights import sampler_weights
 
 CLOUDS = tiny_clouds(shapes=6)
 FAILED = 2

@@ -6,9 +6,9 @@ import torch
 from tiny_classifier import NAMES, TINY
 from tiny_clouds import same_weights, tiny_clouds
 
+from morphoskel.datasets.cloud_set import write_cloud_set
 from morphoskel.errors import ConfigError, InputError
 from morphoskel.learning.classifier_training import train_classifier_on_files
-from morphoskel.learning.cloud_set import write_cloud_set
 from morphoskel.learning.hold_out import hold_out
 from morphoskel.learning.train_classifier import train_classifier
 from morphoskel.networks.pointnet_classifier import load_classifier

@@ -7,11 +7,11 @@ from hypothesis import strategies as st
 from tiny_clouds import tiny_clouds
 
 from morphoskel.config import compose
+from morphoskel.datasets.cloud_set import gather_clouds, normalise, read_cloud_set, write_cloud_set
 from morphoskel.datasets.configured import open_configured
 from morphoskel.datasets.manifest import build_manifest, write_manifest
 from morphoskel.errors import DatasetError, InputError, ShapeError
 from morphoskel.formats import write_cloud_ply
-from morphoskel.learning.cloud_set import gather_clouds, normalise, read_cloud_set, write_cloud_set
 from morphoskel.shapes import PointCloud
 
 

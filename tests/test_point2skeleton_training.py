@@ -5,12 +5,8 @@ from morphoskel.config import compose
 from morphoskel.datasets.configured import open_configured
 from morphoskel.datasets.manifest import build_manifest, write_manifest
 from morphoskel.formats import write_cloud_ply
-from morphoskel.learning.point2skeleton_training import as_tuples, train_on_split
+from morphoskel.learning.point2skeleton_training import train_on_split
 from morphoskel.networks.point2skeleton_network import load_point2skeleton
-
-
-def test_lists_of_lists_become_tuples():
-    assert as_tuples([[1, 2], [3.5]]) == ((1, 2), (3.5,))
 
 
 def test_training_on_a_split_writes_one_network(tmp_path):

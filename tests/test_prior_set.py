@@ -7,7 +7,7 @@ from tiny_clouds import select, tiny_clouds, tiny_priors
 from morphoskel.chain.status import Status, write_status
 from morphoskel.errors import InputError, ShapeError
 from morphoskel.formats import write_skeleton_ply
-from morphoskel.learning.prior_set import (
+from morphoskel.sampling.prior_set import (
     check_priors,
     measure_local_feature_sizes,
     read_prior_set,

@@ -9,8 +9,8 @@ from solids import as_mesh, sphere_cloud
 from tiny_generator import TINY
 from tiny_skeleton_aware import TINY_SAMPLER, TINY_SKELETON
 
+from morphoskel.datasets.cloud_set import normalise
 from morphoskel.errors import ConfigError, InputError
-from morphoskel.learning.cloud_set import normalise
 from morphoskel.networks.point_generator import PointGenerator
 from morphoskel.networks.skeleton_aware_network import SkeletonAwareNetwork
 from morphoskel.networks.skeleton_sampler import SkeletonSampler

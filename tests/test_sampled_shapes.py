@@ -7,13 +7,13 @@ import torch
 from tiny_classifier import NAMES
 from tiny_clouds import select, tiny_classifier, tiny_clouds, tiny_priors
 
+from morphoskel.datasets.cloud_set import write_cloud_set
 from morphoskel.errors import InputError
 from morphoskel.evaluation.sampled_shapes import evaluate_choices, evaluate_files, every_point
-from morphoskel.learning.cloud_set import write_cloud_set
-from morphoskel.learning.prior_set import write_prior_set
 from morphoskel.networks.pointnet_classifier import save_classifier
 from morphoskel.reporting.sampling_rows import DRAW_COLUMNS, SHAPE_COLUMNS
 from morphoskel.sampling.choice import Choice, write_choice
+from morphoskel.sampling.prior_set import write_prior_set
 
 CLOUDS = tiny_clouds(shapes=6)
 FAILED = 4

@@ -7,19 +7,19 @@ from tiny_clouds import same_weights, select, tiny_classifier, tiny_clouds, tiny
 from tiny_generator import TINY
 from tiny_skeleton_aware import TINY_SAMPLER
 
+from morphoskel.datasets.cloud_set import write_cloud_set
 from morphoskel.errors import ConfigError, DatasetError, InputError
 from morphoskel.evaluation.sampled_shapes import evaluate_files
 from morphoskel.learning import resumable_fit as fitting
-from morphoskel.learning.cloud_set import write_cloud_set
-from morphoskel.learning.prior_set import write_prior_set
 from morphoskel.learning.sampler_training import train_sampler_on_files
-from morphoskel.learning.sampler_weights import sampler_weights
 from morphoskel.learning.train_sampler import SamplerTraining, train_sampler
 from morphoskel.networks.point_generator import load_generator
 from morphoskel.networks.pointnet_classifier import save_classifier
 from morphoskel.networks.skeleton_sampler import load_skeleton_sampler
 from morphoskel.sampling.choose_for_split import choose_for_split
 from morphoskel.sampling.prior import PriorSettings
+from morphoskel.sampling.prior_set import write_prior_set
+from morphoskel.sampling.sampler_weights import sampler_weights
 
 CLOUDS = tiny_clouds(shapes=9)
 PRIORS = tiny_priors(CLOUDS, failed=(2,))

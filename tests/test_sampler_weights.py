@@ -5,8 +5,8 @@ import pytest
 from tiny_clouds import select, tiny_clouds, tiny_priors
 
 from morphoskel.errors import InputError
-from morphoskel.learning.sampler_weights import sampler_weights
 from morphoskel.sampling.prior import PriorSettings, prior_weights
+from morphoskel.sampling.sampler_weights import sampler_weights
 
 CLOUDS = tiny_clouds(shapes=5)
 PRIORS = tiny_priors(CLOUDS, failed=(2,))

@@ -5,14 +5,14 @@ from scipy.spatial.distance import cdist
 from tiny_clouds import same_weights, select, tiny_clouds
 from tiny_skeleton_aware import TINY_SAMPLER, TINY_SKELETON
 
+from morphoskel.datasets.cloud_set import write_cloud_set
 from morphoskel.errors import InputError
-from morphoskel.learning.cloud_set import write_cloud_set
 from morphoskel.learning.hold_out import hold_out
-from morphoskel.learning.prior_set import read_prior_set, write_prior_set
 from morphoskel.learning.skeleton_aware_training import predict_local_feature_sizes, train_skeleton_aware_on_files
 from morphoskel.learning.train_skeleton_aware import train_skeleton_aware
 from morphoskel.networks.skeleton_aware_network import load_skeleton_aware, predict_skeleton
 from morphoskel.networks.skeleton_sampler import SkeletonSampler, save_skeleton_sampler
+from morphoskel.sampling.prior_set import read_prior_set, write_prior_set
 
 CLOUDS = tiny_clouds(shapes=6)
 

@@ -13,11 +13,11 @@ from tiny_skeleton_aware import TINY_SAMPLER
 from morphoskel.errors import ConfigError, InputError
 from morphoskel.learning import resumable_fit as fitting
 from morphoskel.learning.hold_out import hold_out
-from morphoskel.learning.sampler_weights import sampler_weights
 from morphoskel.learning.train_sampler import SamplerTraining, train_sampler
 from morphoskel.networks.point_generator import load_generator
 from morphoskel.networks.skeleton_sampler import load_skeleton_sampler
 from morphoskel.sampling.prior import PriorSettings
+from morphoskel.sampling.sampler_weights import sampler_weights
 
 
 @pytest.fixture(autouse=True, scope="module")

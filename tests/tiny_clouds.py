@@ -6,9 +6,9 @@ import numpy as np
 import torch
 from tiny_classifier import NAMES, TINY, balls_and_lines
 
-from morphoskel.learning.cloud_set import CloudSet, normalise
-from morphoskel.learning.prior_set import PriorSet
+from morphoskel.datasets.cloud_set import CloudSet, normalise
 from morphoskel.networks.pointnet_classifier import PointNetClassifier
+from morphoskel.sampling.prior_set import PriorSet
 
 
 def tiny_clouds(shapes=8, points=40, seed=0):

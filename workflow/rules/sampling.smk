@@ -20,7 +20,7 @@ rule gather_clouds:
         dataset=section("dataset"),
         points=CONFIG.sampling.points,
         seed=CONFIG.seed,
-        digest=code_digest("learning.cloud_set"),
+        digest=code_digest("datasets.cloud_set"),
     script:
         "../scripts/gather_clouds.py"
 
@@ -44,7 +44,7 @@ rule local_feature_size:
         runtime=60,
     params:
         max_failed=CONFIG.max_failed,
-        digest=code_digest("learning.prior_set"),
+        digest=code_digest("sampling.prior_set"),
     script:
         "../scripts/local_feature_size.py"
 

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from morphoskel.learning.cloud_set import gather_clouds, write_cloud_set
+from morphoskel.datasets.cloud_set import gather_clouds, write_cloud_set
 from morphoskel.logs import log_to
 
 log_to(snakemake.log[0])

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from morphoskel.learning.cloud_set import read_cloud_set
-from morphoskel.learning.prior_set import check_priors, measure_local_feature_sizes, write_prior_set
+from morphoskel.datasets.cloud_set import read_cloud_set
 from morphoskel.logs import log_to
+from morphoskel.sampling.prior_set import check_priors, measure_local_feature_sizes, write_prior_set
 
 log_to(snakemake.log[0])
 clouds = read_cloud_set(Path(snakemake.input.clouds))

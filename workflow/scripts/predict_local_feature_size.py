@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from morphoskel.learning.prior_set import write_prior_set
 from morphoskel.learning.skeleton_aware_training import predict_local_feature_sizes
 from morphoskel.logs import log_to
+from morphoskel.sampling.prior_set import write_prior_set
 
 log_to(snakemake.log[0])
 priors = predict_local_feature_sizes(

@@ -17,7 +17,7 @@ from morphoskel.sampling.choice import FIXED, Choice
 if TYPE_CHECKING:
     import pandas as pd
 
-    from morphoskel.learning.cloud_set import CloudSet
+    from morphoskel.datasets.cloud_set import CloudSet
     from morphoskel.networks.pointnet_classifier import PointNetClassifier
     from morphoskel.sampling.choose_for_split import Key
 
@@ -110,10 +110,10 @@ def evaluate_files(
     outputs
         The files to write, of the shapes and of the draws.
     """
-    from morphoskel.learning.cloud_set import read_cloud_set
-    from morphoskel.learning.prior_set import read_prior_set
+    from morphoskel.datasets.cloud_set import read_cloud_set
     from morphoskel.networks.pointnet_classifier import load_classifier
     from morphoskel.sampling.choose_for_split import read_choices
+    from morphoskel.sampling.prior_set import read_prior_set
 
     shapes = read_cloud_set(clouds)
     frames = evaluate_choices(

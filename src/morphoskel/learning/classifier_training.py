@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from morphoskel.atomic import atomic_file
+from morphoskel.datasets.cloud_set import read_cloud_set
 from morphoskel.datasets.manifest import checksum
-from morphoskel.learning.cloud_set import read_cloud_set
 from morphoskel.learning.hold_out import hold_out
 from morphoskel.networks.classifier_settings import ClassifierSettings
 from morphoskel.provenance import content_hash

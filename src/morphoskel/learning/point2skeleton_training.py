@@ -11,6 +11,7 @@ from morphoskel.atomic import atomic_file
 from morphoskel.datasets.configured import open_configured
 from morphoskel.datasets.manifest import read_manifest
 from morphoskel.learning.hold_out import hold_out
+from morphoskel.learning.plain_values import as_tuples
 from morphoskel.networks.point2skeleton_settings import Point2SkeletonSettings
 from morphoskel.provenance import content_hash
 
@@ -74,8 +75,3 @@ def train_on_split(
     )
     with atomic_file(result) as partial:
         partial.write_bytes(trained.read_bytes())
-
-
-def as_tuples(value: Any) -> Any:
-    """Return nested lists, which configuration files have, as nested tuples."""
-    return tuple(as_tuples(item) for item in value) if isinstance(value, list | tuple) else value

@@ -7,15 +7,15 @@ from pathlib import Path
 from typing import Any
 
 from morphoskel.atomic import atomic_file
+from morphoskel.datasets.cloud_set import read_cloud_set
 from morphoskel.datasets.manifest import checksum
-from morphoskel.learning.cloud_set import read_cloud_set
-from morphoskel.learning.point2skeleton_training import as_tuples
-from morphoskel.learning.prior_set import read_prior_set
-from morphoskel.learning.sampler_weights import sampler_weights
+from morphoskel.learning.plain_values import as_tuples
 from morphoskel.networks.generator_settings import GeneratorSettings
 from morphoskel.networks.skeleton_sampler_settings import SkeletonSamplerSettings
 from morphoskel.provenance import content_hash
 from morphoskel.sampling.prior import PriorSettings
+from morphoskel.sampling.prior_set import read_prior_set
+from morphoskel.sampling.sampler_weights import sampler_weights
 from morphoskel.sampling.samplers import GENERATORS
 
 

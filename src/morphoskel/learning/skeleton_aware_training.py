@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 
 from morphoskel.atomic import atomic_file
+from morphoskel.datasets.cloud_set import read_cloud_set
 from morphoskel.datasets.manifest import checksum
-from morphoskel.learning.cloud_set import read_cloud_set
 from morphoskel.learning.hold_out import hold_out
-from morphoskel.learning.point2skeleton_training import as_tuples
-from morphoskel.learning.prior_set import PriorSet
+from morphoskel.learning.plain_values import as_tuples
 from morphoskel.networks.skeleton_aware_settings import SkeletonAwareSettings
 from morphoskel.provenance import content_hash
 from morphoskel.sampling.prior import local_feature_size
+from morphoskel.sampling.prior_set import PriorSet
 
 
 def train_skeleton_aware_on_files(

@@ -12,9 +12,9 @@ import numpy as np
 import numpy.typing as npt
 import torch
 
+from morphoskel.datasets.cloud_set import CloudSet
 from morphoskel.errors import ConfigError, InputError
 from morphoskel.learning.claim import claim
-from morphoskel.learning.cloud_set import CloudSet
 from morphoskel.learning.generator_phases import GeneratorPhase
 from morphoskel.learning.hold_out import hold_out
 from morphoskel.learning.resumable_fit import BatchedPhase, resumable_fit

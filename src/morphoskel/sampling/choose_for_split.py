@@ -64,9 +64,9 @@ def choose_for_split(
     InputError
         If a file is missing or does not fit.
     """
-    from morphoskel.learning.cloud_set import read_cloud_set
-    from morphoskel.learning.prior_set import read_prior_set
-    from morphoskel.learning.sampler_weights import sampler_weights
+    from morphoskel.datasets.cloud_set import read_cloud_set
+    from morphoskel.sampling.prior_set import read_prior_set
+    from morphoskel.sampling.sampler_weights import sampler_weights
 
     shapes = read_cloud_set(clouds)
     sizes = read_prior_set(priors, shapes) if priors else None

@@ -21,7 +21,7 @@ from morphoskel.skeleton.thinning import farthest_points
 if TYPE_CHECKING:
     import torch
 
-    from morphoskel.learning.cloud_set import CloudSet
+    from morphoskel.datasets.cloud_set import CloudSet
     from morphoskel.networks.point_generator import PointGenerator
     from morphoskel.networks.skeleton_sampler import SkeletonSampler
 

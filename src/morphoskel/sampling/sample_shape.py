@@ -149,7 +149,7 @@ class ShapeSampler:
     ) -> SampledShape:
         import torch
 
-        from morphoskel.learning.cloud_set import normalise
+        from morphoskel.datasets.cloud_set import normalise
         from morphoskel.sampling.trained import choose_trained, skeletonize_trained
 
         kept = self._thinned(len(cloud), name)

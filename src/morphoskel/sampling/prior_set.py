@@ -14,9 +14,9 @@ import numpy.typing as npt
 
 from morphoskel.atomic import atomic_file
 from morphoskel.chain.status import read_status
+from morphoskel.datasets.cloud_set import CloudSet
 from morphoskel.errors import InputError, ShapeError
 from morphoskel.formats import read_skeleton_ply
-from morphoskel.learning.cloud_set import CloudSet
 from morphoskel.sampling.prior import local_feature_size
 
 logger = logging.getLogger(__name__)

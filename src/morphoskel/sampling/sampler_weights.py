@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from morphoskel.datasets.cloud_set import CloudSet
 from morphoskel.errors import InputError
-from morphoskel.learning.cloud_set import CloudSet
-from morphoskel.learning.prior_set import PriorSet
 from morphoskel.sampling.prior import PriorSettings, prior_weights, shuffled_weights, uniform_weights
+from morphoskel.sampling.prior_set import PriorSet
 from morphoskel.seeds import derive_generator
 
 UNIFORM = "uniform"
