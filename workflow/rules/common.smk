@@ -336,9 +336,8 @@ def sampling_provenance():
         **provenance(),
         "seeds": CONFIG.sampling.seeds,
         "draws": CONFIG.sampling.draws,
-        "budget": (
-            f"{steps} steps a training" if steps else "published numbers of epochs"
-        ),
+        "budget": (f"{steps} steps" if steps else "published numbers of epochs")
+        + f" a training on clouds of {CONFIG.sampling.points} points",
     }
 
 
