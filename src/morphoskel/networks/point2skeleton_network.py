@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import pickle
 from pathlib import Path
 
-import torch
 from torch import nn
 
-from morphoskel.atomic import atomic_file
-from morphoskel.errors import ConfigError, InputError
+from morphoskel.networks.network_file import read_network, write_network
 from morphoskel.networks.point2skeleton_settings import Point2SkeletonSettings
 from morphoskel.networks.skeletal_links import LinkNetwork
 from morphoskel.networks.skeletal_points import SkeletalPointNetwork
@@ -33,9 +30,7 @@ class Point2SkeletonNetwork(nn.Module):
 
 def save_network(network: Point2SkeletonNetwork, path: Path) -> None:
     """Write weights and settings to one file, whole or not at all."""
-    content = {"settings": network.settings.as_mapping(), "weights": network.state_dict()}
-    with atomic_file(path) as partial:
-        torch.save(content, partial)
+    write_network(network, path, settings=network.settings.as_mapping())
 
 
 def load_point2skeleton(path: Path | str) -> Point2SkeletonNetwork:
@@ -56,12 +51,7 @@ def load_point2skeleton(path: Path | str) -> Point2SkeletonNetwork:
     InputError
         If the file is missing, or is not such a network.
     """
-    try:
-        content = torch.load(path, map_location="cpu", weights_only=True)
+    with read_network(path, "Point2Skeleton network") as content:
         network = Point2SkeletonNetwork(Point2SkeletonSettings(**content["settings"]))
         network.load_state_dict(content["weights"])
-    except FileNotFoundError as error:
-        raise InputError(f"{path}: no trained Point2Skeleton network there; train one first") from error
-    except (RuntimeError, KeyError, TypeError, EOFError, pickle.UnpicklingError, ConfigError) as error:
-        raise InputError(f"{path}: not a Point2Skeleton network of this version ({error}); train it again") from error
     return network.eval()

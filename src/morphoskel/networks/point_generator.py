@@ -6,7 +6,6 @@ Source: Dovrat et al., *Learning to Sample*, CVPR 2019, "S-NET", and the program
 
 from __future__ import annotations
 
-import pickle
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -15,9 +14,8 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
-from morphoskel.atomic import atomic_file
-from morphoskel.errors import ConfigError, InputError
 from morphoskel.networks.generator_settings import GeneratorSettings
+from morphoskel.networks.network_file import read_network, write_network
 from morphoskel.networks.soft_projection import SoftProjection
 
 
@@ -112,14 +110,7 @@ def generate(network: PointGenerator, points: Tensor, batch_size: int) -> Tensor
 
 def save_generator(network: PointGenerator, path: Path) -> None:
     """Write weights, temperature, settings and number of points to one file, whole or not at all."""
-    content = {
-        "samples": network.samples,
-        "settings": network.settings.as_mapping(),
-        "origin": network.origin,
-        "weights": network.state_dict(),
-    }
-    with atomic_file(path) as partial:
-        torch.save(content, partial)
+    write_network(network, path, samples=network.samples, settings=network.settings.as_mapping(), origin=network.origin)
 
 
 def load_generator(path: Path | str) -> PointGenerator:
@@ -140,13 +131,8 @@ def load_generator(path: Path | str) -> PointGenerator:
     InputError
         If the file is missing, or is not such a network.
     """
-    try:
-        content = torch.load(path, map_location="cpu", weights_only=True)
+    with read_network(path, "generator of points") as content:
         network = PointGenerator(content["samples"], GeneratorSettings(**content["settings"]))
         network.load_state_dict(content["weights"])
         network.origin = content["origin"]
-    except FileNotFoundError as error:
-        raise InputError(f"{path}: no trained generator of points there; train one first") from error
-    except (RuntimeError, KeyError, TypeError, EOFError, pickle.UnpicklingError, ConfigError) as error:
-        raise InputError(f"{path}: not a generator of points of this version ({error}); train it again") from error
     return network.eval()

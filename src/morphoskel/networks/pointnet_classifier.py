@@ -5,7 +5,6 @@ Source: Qi et al., *PointNet: Deep Learning on Point Sets for 3D Classification 
 
 from __future__ import annotations
 
-import pickle
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,9 +13,9 @@ import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
-from morphoskel.atomic import atomic_file
-from morphoskel.errors import ConfigError, InputError
+from morphoskel.errors import InputError
 from morphoskel.networks.classifier_settings import ClassifierSettings
+from morphoskel.networks.network_file import read_network, write_network
 from morphoskel.networks.pointnet import PointNetEncoder, hidden_layer
 
 DESCRIPTOR = 256
@@ -115,13 +114,7 @@ def save_classifier(network: PointNetClassifier, class_names: Sequence[str], pat
         raise InputError(
             f"{path}: expected a name for each of the {network.classify.out_features} classes, got {len(class_names)}"
         )
-    content = {
-        "settings": network.settings.as_mapping(),
-        "class_names": list(class_names),
-        "weights": network.state_dict(),
-    }
-    with atomic_file(path) as partial:
-        torch.save(content, partial)
+    write_network(network, path, settings=network.settings.as_mapping(), class_names=list(class_names))
 
 
 def load_classifier(path: Path | str) -> PointNetClassifier:
@@ -142,14 +135,9 @@ def load_classifier(path: Path | str) -> PointNetClassifier:
     InputError
         If the file is missing, or is not such a network.
     """
-    try:
-        content = torch.load(path, map_location="cpu", weights_only=True)
+    with read_network(path, "classifier") as content:
         names = tuple(content["class_names"])
         network = PointNetClassifier(len(names), ClassifierSettings(**content["settings"]))
         network.load_state_dict(content["weights"])
-    except FileNotFoundError as error:
-        raise InputError(f"{path}: no trained classifier there; train one first") from error
-    except (RuntimeError, KeyError, TypeError, EOFError, pickle.UnpicklingError, ConfigError) as error:
-        raise InputError(f"{path}: not a classifier of this version ({error}); train it again") from error
     network.class_names = names
     return network.eval()

@@ -5,7 +5,6 @@ Source: Wen et al., *Learnable Skeleton-Aware 3D Point Cloud Sampling*, CVPR 202
 
 from __future__ import annotations
 
-import pickle
 from pathlib import Path
 from typing import NamedTuple
 
@@ -13,9 +12,9 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from morphoskel.atomic import atomic_file
-from morphoskel.errors import ConfigError, InputError
+from morphoskel.errors import InputError
 from morphoskel.networks.edge_features import EdgeFeatures
+from morphoskel.networks.network_file import read_network, write_network
 from morphoskel.networks.pointnet2 import BallFeatures, farthest_points, gather_rows
 from morphoskel.networks.seed_neighbourhoods import seed_neighbourhoods
 from morphoskel.networks.skeleton_aware_settings import SkeletonAwareSettings
@@ -152,9 +151,7 @@ def predict_skeleton(network: SkeletonAwareNetwork, points: Tensor) -> tuple[Ten
 
 def save_skeleton_aware(network: SkeletonAwareNetwork, path: Path) -> None:
     """Write weights and settings to one file, whole or not at all."""
-    content = {"settings": network.settings.as_mapping(), "weights": network.state_dict()}
-    with atomic_file(path) as partial:
-        torch.save(content, partial)
+    write_network(network, path, settings=network.settings.as_mapping())
 
 
 def load_skeleton_aware(path: Path | str) -> SkeletonAwareNetwork:
@@ -175,12 +172,7 @@ def load_skeleton_aware(path: Path | str) -> SkeletonAwareNetwork:
     InputError
         If the file is missing, or is not such a network.
     """
-    try:
-        content = torch.load(path, map_location="cpu", weights_only=True)
+    with read_network(path, "skeleton-aware skeleton network") as content:
         network = SkeletonAwareNetwork(SkeletonAwareSettings(**content["settings"]))
         network.load_state_dict(content["weights"])
-    except FileNotFoundError as error:
-        raise InputError(f"{path}: no trained skeleton-aware skeleton network there; train one first") from error
-    except (RuntimeError, KeyError, TypeError, EOFError, pickle.UnpicklingError, ConfigError) as error:
-        raise InputError(f"{path}: not a skeleton-aware skeleton network of this version ({error})") from error
     return network.eval()

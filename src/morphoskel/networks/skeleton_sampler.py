@@ -5,16 +5,14 @@ Source: Wen et al., *Learnable Skeleton-Aware 3D Point Cloud Sampling*, CVPR 202
 
 from __future__ import annotations
 
-import pickle
 from pathlib import Path
 from typing import Any
 
-import torch
 from torch import Tensor, nn
 
-from morphoskel.atomic import atomic_file
-from morphoskel.errors import ConfigError, InputError
+from morphoskel.errors import ConfigError
 from morphoskel.networks.edge_features import EdgeFeatures
+from morphoskel.networks.network_file import read_network, write_network
 from morphoskel.networks.skeleton_sampler_settings import SkeletonSamplerSettings
 
 
@@ -80,14 +78,7 @@ class SkeletonSampler(nn.Module):
 
 def save_skeleton_sampler(network: SkeletonSampler, path: Path) -> None:
     """Write weights, settings and the number of samples to one file, whole or not at all."""
-    content = {
-        "samples": network.samples,
-        "settings": network.settings.as_mapping(),
-        "origin": network.origin,
-        "weights": network.state_dict(),
-    }
-    with atomic_file(path) as partial:
-        torch.save(content, partial)
+    write_network(network, path, samples=network.samples, settings=network.settings.as_mapping(), origin=network.origin)
 
 
 def load_skeleton_sampler(path: Path | str) -> SkeletonSampler:
@@ -108,13 +99,8 @@ def load_skeleton_sampler(path: Path | str) -> SkeletonSampler:
     InputError
         If the file is missing, or is not such a network.
     """
-    try:
-        content = torch.load(path, map_location="cpu", weights_only=True)
+    with read_network(path, "skeleton-aware sampler") as content:
         network = SkeletonSampler(content["samples"], SkeletonSamplerSettings(**content["settings"]))
         network.load_state_dict(content["weights"])
         network.origin = content["origin"]
-    except FileNotFoundError as error:
-        raise InputError(f"{path}: no trained skeleton-aware sampler there; train one first") from error
-    except (RuntimeError, KeyError, TypeError, EOFError, pickle.UnpicklingError, ConfigError) as error:
-        raise InputError(f"{path}: not a skeleton-aware sampler of this version ({error}); train it again") from error
     return network.eval()
