@@ -38,7 +38,7 @@ def select(record, positions):
     of_shapes = {
         field.name: getattr(record, field.name)[positions]
         for field in dataclasses.fields(record)
-        if field.name != "class_names"
+        if field.name not in ("class_names", "part_classes") and getattr(record, field.name) is not None
     }
     return dataclasses.replace(record, **of_shapes)
 

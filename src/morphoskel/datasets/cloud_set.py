@@ -17,7 +17,7 @@ from morphoskel.datasets.configured import open_configured
 from morphoskel.datasets.manifest import read_manifest
 from morphoskel.errors import InputError, ShapeError
 from morphoskel.seeds import derive_generator
-from morphoskel.shapes import FloatArray
+from morphoskel.shapes import FloatArray, IntArray, PointCloud
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +36,17 @@ class CloudSet:
         ``(S, N, 3)`` float32: centroid 0 and largest distance from it 1.
     centres, scales
         ``(S, 3)`` and ``(S,)`` float64: a normalised point is (original - centre) / scale.
+    parts
+        ``(S, N)`` int64, the part that each point belongs to, -1 for a point that repeats an earlier one; ``None`` for
+        a data set without parts.
+    part_classes
+        ``(P,)`` int64, the label of the class to which each of all P parts belongs, -1 for a class that the set lacks;
+        ``None`` likewise.
+
+    Notes
+    -----
+    A cloud with fewer than N points has all of them, in order, again and again: point i is a copy of i modulo their
+    number.
     """
 
     ids: npt.NDArray[np.str_]
@@ -44,9 +55,17 @@ class CloudSet:
     points: npt.NDArray[np.float32]
     centres: FloatArray
     scales: FloatArray
+    parts: npt.NDArray[np.int64] | None = None
+    part_classes: npt.NDArray[np.int64] | None = None
 
     def __len__(self) -> int:
         return len(self.ids)
+
+    @property
+    def lengths(self) -> npt.NDArray[np.int64]:
+        """Return the number of different points of each cloud, ``(S,)``; the others repeat them."""
+        shapes, available = self.points.shape[:2]
+        return np.full(shapes, available) if self.parts is None else np.sum(self.parts >= 0, axis=1, dtype=np.int64)
 
     @property
     def categories(self) -> npt.NDArray[np.str_]:
@@ -94,7 +113,14 @@ def normalise(points: FloatArray) -> tuple[npt.NDArray[np.float32], FloatArray, 
 
 
 def gather_clouds(
-    manifest: Path, split: str, *, dataset: Mapping[str, Any], points: int, seed: int, progress: bool = True
+    manifest: Path,
+    split: str,
+    *,
+    dataset: Mapping[str, Any],
+    points: int,
+    seed: int,
+    repeat: bool = False,
+    progress: bool = True,
 ) -> CloudSet:
     """Read the clouds of a split and bring them to the same number of points.
 
@@ -108,6 +134,8 @@ def gather_clouds(
         The configuration's data set section and the global seed.
     points
         Points of each cloud, drawn at random without replacement; a cloud with just as many keeps them in their order.
+    repeat
+        Repeat the points of clouds that have too few, as often as needed.
     progress
         Show a progress bar.
 
@@ -116,18 +144,23 @@ def gather_clouds(
     DatasetError
         If the manifest has no shape of the split.
     ShapeError
-        If a cloud has too few points, naming it.
+        If a cloud has too few points, or no part labels though the data set has parts, naming it.
     """
     from tqdm import tqdm
 
     source = open_configured(dataset, seed=seed)
+    part_labels = getattr(source, "part_labels", None)
     class_names = np.array(sorted({record.category for record in read_manifest(manifest)}))
     records = read_manifest(manifest, split=split)
-    normalised = []
+    normalised, parts = [], []
     for record in tqdm(records, unit="cloud", desc=f"read {split}", disable=not progress):
         try:
-            cloud = source.load(record.path).points
-            normalised.append(normalise(_draw(cloud, points, derive_generator(seed, record.id, "network points"))))
+            cloud = source.load(record.path)
+            generator = derive_generator(seed, record.id, "network points")
+            drawn = _draw(len(cloud), points, generator, repeat)
+            normalised.append(normalise(cloud.points[drawn]))
+            if part_labels:
+                parts.append(_parts(cloud, drawn))
         except ShapeError as error:
             raise ShapeError(f"{record.id} ({record.path}): {error}") from error
     clouds, centres, scales = zip(*normalised, strict=True)
@@ -138,19 +171,40 @@ def gather_clouds(
         points=np.stack(clouds),
         centres=np.stack(centres),
         scales=np.array(scales),
+        parts=np.stack(parts) if part_labels else None,
+        part_classes=_part_classes(part_labels, class_names.tolist()) if part_labels else None,
     )
 
 
-def _draw(cloud: FloatArray, points: int, generator: np.random.Generator) -> FloatArray:
-    if len(cloud) < points:
-        raise ShapeError(f"has {len(cloud)} points, {points} are wanted; lower sampling.points, or sample it denser")
-    return cloud if len(cloud) == points else cloud[generator.choice(len(cloud), points, replace=False)]
+def _draw(available: int, points: int, generator: np.random.Generator, repeat: bool) -> IntArray:
+    """Return the indices of the points to use."""
+    if available < points and not repeat:
+        raise ShapeError(f"has {available} points, {points} are wanted; lower sampling.points, or sample it denser")
+    if available <= points:
+        return np.arange(points) % available
+    return generator.choice(available, points, replace=False)
+
+
+def _parts(cloud: PointCloud, drawn: IntArray) -> IntArray:
+    """Return the parts of the points, -1 for repeated ones."""
+    if cloud.labels is None:
+        raise ShapeError("has no part labels, though its data set has parts")
+    return np.where(np.arange(len(drawn)) < len(cloud), cloud.labels[drawn], -1)
+
+
+def _part_classes(part_labels: Mapping[str, range], class_names: list[str]) -> IntArray:
+    """Return the class of each part, -1 for the parts of classes that are left out."""
+    classes = np.full(max(parts.stop for parts in part_labels.values()), -1, dtype=np.int64)
+    for label, name in enumerate(class_names):
+        classes[part_labels[name].start : part_labels[name].stop] = label
+    return classes
 
 
 def write_cloud_set(clouds: CloudSet, path: Path) -> None:
     """Write the clouds to an NPZ file, whole or not at all."""
     with atomic_file(path) as partial, partial.open("wb") as stream:
-        np.savez(stream, **{field.name: getattr(clouds, field.name) for field in fields(CloudSet)})
+        values = {field.name: getattr(clouds, field.name) for field in fields(CloudSet)}
+        np.savez(stream, **{name: value for name, value in values.items() if value is not None})
 
 
 def read_cloud_set(path: Path) -> CloudSet:
@@ -163,6 +217,6 @@ def read_cloud_set(path: Path) -> CloudSet:
     """
     try:
         with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
-            return CloudSet(**{field.name: stored[field.name] for field in fields(CloudSet)})
+            return CloudSet(**{name: stored[name] for name in stored.files})
     except (OSError, EOFError, KeyError, TypeError, ValueError, zipfile.BadZipFile, zlib.error) as error:
         raise InputError(f"{path}: expected a file of clouds of this version ({error}); make it again") from error

@@ -93,6 +93,11 @@ class ShapeNetPartDataset:
         Leave out, with a warning in the log, shapes that a split list names but that are not on disk, and splits whose
         list is absent. By default both are errors.
 
+    Attributes
+    ----------
+    part_labels : dict of range
+        Labels of the parts of each category, :data:`PARTS`.
+
     Raises
     ------
     DatasetError
@@ -103,6 +108,7 @@ class ShapeNetPartDataset:
         self.root = Path(root)
         self.categories = choose_categories(categories, CATEGORIES.values())
         self.allow_missing = allow_missing
+        self.part_labels = PARTS
 
     @property
     def how_to_get(self) -> str:

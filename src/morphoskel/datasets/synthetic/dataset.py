@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from morphoskel.atomic import atomic_folder
 from morphoskel.datasets.dataset import check_root, choose_categories
 from morphoskel.datasets.manifest import SAFE_NAME, Entry
-from morphoskel.datasets.synthetic.catalogue import CATEGORIES
+from morphoskel.datasets.synthetic.catalogue import CATEGORIES, part_labels
 from morphoskel.datasets.synthetic.generate import check_point_count, generate_shape
 from morphoskel.errors import DatasetError, ShapeError
 from morphoskel.pool import run_isolated
@@ -42,6 +42,11 @@ class SyntheticDataset:
     seed
         The global seed.
 
+    Attributes
+    ----------
+    part_labels : dict of range
+        Labels of the parts of each category, in one numbering over all categories.
+
     Raises
     ------
     DatasetError
@@ -61,6 +66,7 @@ class SyntheticDataset:
         self.per_category = dict({"train": 8, "test": 4} if per_category is None else per_category)
         self.points = points
         self.seed = seed
+        self.part_labels = {category: part_labels(category) for category in CATEGORIES}
         check_point_count(points)
         for split, count in self.per_category.items():
             if not SAFE_NAME.fullmatch(split):
