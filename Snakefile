@@ -6,11 +6,13 @@ min_version("9.27")
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/sampling_inputs.smk"
 include: "workflow/rules/data.smk"
 include: "workflow/rules/skeleton.smk"
 include: "workflow/rules/learning.smk"
 include: "workflow/rules/methods.smk"
 include: "workflow/rules/sampling.smk"
+include: "workflow/rules/segmentation.smk"
 include: "workflow/rules/timing.smk"
 include: "workflow/rules/evaluation.smk"
 include: "workflow/rules/tables.smk"
@@ -36,7 +38,7 @@ rule all:
         rules.table_skeleton_reconstruction.output,
         rules.table_surface_reconstruction.output,
         rules.table_processing_time.output,
-        sampling_tables(),
+        learning_tables(),
         rules.figure_contact_sheet.output,
         rules.figure_skeletons.output,
         [rules.figure_explanation.output] if len(CONFIG.skeleton.selection) > 1 else [],

@@ -128,18 +128,28 @@ def test_fewer_shapes_leave_the_choices_of_the_others(files, tmp_path):
     assert all(np.array_equal(some[key].indices, first[key].indices[:, order]) for key in first)
 
 
+def test_networks_choose_as_many_points_in_larger_clouds(files, tmp_path):
+    larger = tiny_clouds(shapes=3, points=80)
+    write_cloud_set(larger, tmp_path / "clouds.npz")
+    networks = [files / "snet" / str(ratio) / str(number) / "network.pt" for ratio in (4, 8) for number in (0, 1)]
+    chosen = choose(tmp_path, "snet", tmp_path / "samples", networks, ratios=(8, 16), priors=None)
+    assert list(chosen) == [(ratio, number, "fixed") for ratio in (8, 16) for number in (0, 1)]
+    assert {key[0]: choice.indices.shape for key, choice in chosen.items()} == {8: (1, 3, 10), 16: (1, 3, 5)}
+    assert max(choice.indices.max() for choice in chosen.values()) >= 40
+
+
 def test_wrong_and_missing_files_are_named_and_nothing_is_left(files, tmp_path):
     ms3d, snet = (files / name / "8" / "0" / "network.pt" for name in ("ms3d", "snet"))
-    wrong_ratio = tmp_path / "4" / "0" / "network.pt"
-    wrong_ratio.parent.mkdir(parents=True)
-    shutil.copy(ms3d, wrong_ratio)
+    unnumbered = tmp_path / "first" / "network.pt"
+    unnumbered.parent.mkdir()
+    shutil.copy(ms3d, unnumbered)
     write_prior_set(tiny_priors(tiny_clouds(shapes=4)), tmp_path / "priors.npz")
     cases = [
         ("ms3d", [files / "9" / "0" / "network.pt"], {}, r"9/0/network\.pt: no trained skeleton-aware sampler there"),
         ("ms3d", [snet], {}, r"network\.pt: not a skeleton-aware sampler"),
         ("snet", [ms3d], {}, r"network\.pt: not a generator of points"),
-        ("ms3d", [files / "task.pt"], {}, r"task\.pt: expected its folders to be named by ratio and number"),
-        ("ms3d", [wrong_ratio], {}, "ms3d: expected a network trained to choose 10 points"),
+        ("ms3d", [unnumbered], {}, r"network\.pt: expected its folder to be named by the number"),
+        ("ms3d", [ms3d], {"ratios": (4,)}, r"network\.pt: chooses 5 points; expected a network trained to choose 10$"),
         ("ms3d", [], {}, "ms3d: expected a network"),
         ("ms3d", [ms3d], {"priors": None}, "ms3d: local feature sizes are needed"),
         ("ms3d", [ms3d], {"priors": tmp_path / "priors.npz"}, r"priors\.npz: belongs to other clouds"),
@@ -150,7 +160,7 @@ def test_wrong_and_missing_files_are_named_and_nothing_is_left(files, tmp_path):
     for sampler, networks, others, message in cases:
         with pytest.raises(InputError, match=message):
             choose(files, sampler, tmp_path / "samples", networks, **others)
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["4", "priors.npz"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["first", "priors.npz"]
 
 
 def test_a_folder_without_choices_is_refused(tmp_path):

@@ -1,3 +1,4 @@
+import json
 import math
 
 import numpy as np
@@ -109,6 +110,67 @@ def test_a_cloud_with_too_few_points_is_named(tmp_path):
         gather(tmp_path, points=21)
     with pytest.raises(DatasetError, match="no shape of split 'val'"):
         gather(tmp_path, split="val")
+
+
+LABELS = np.array([1, 2, 2, 3, 1])
+
+
+def write_parts(folder, listed):
+    """Write ShapeNetPart's raw layout: chairs and lamps of five points, of which the first decides the shape's id."""
+    for split, shapes in listed.items():
+        path = folder / f"train_test_split/shuffled_{split}_file_list.json"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps([f"shape_data/{shape}" for shape in shapes]))
+        for number, shape in enumerate(shapes):
+            offset, name = shape.split("/")
+            for kind, suffix, rows in (
+                ("points", "pts", np.random.default_rng(number).normal(size=(5, 3))),
+                ("points_label", "seg", LABELS),
+            ):
+                (folder / offset / kind).mkdir(parents=True, exist_ok=True)
+                np.savetxt(folder / offset / kind / f"{name}.{suffix}", rows, fmt="%.9g")
+    section = compose(["dataset=shapenetpart", f"dataset.root={folder}"]).model_dump(mode="json")["dataset"]
+    entries = open_configured(section, seed=1).list_shapes()
+    write_manifest(folder / "manifest.csv", build_manifest(entries, shard_size=2))
+    return section, folder / "manifest.csv"
+
+
+@pytest.fixture(scope="module")
+def with_parts(tmp_path_factory):
+    chair, lamp = "03001627", "03636649"
+    listed = {"train": [f"{lamp}/a", f"{chair}/a"], "val": [f"{chair}/b"], "test": [f"{lamp}/c"]}
+    return write_parts(tmp_path_factory.mktemp("parts"), listed)
+
+
+@pytest.mark.parametrize("points", [3, 5, 12])
+def test_parts_stay_with_their_points(with_parts, points, tmp_path):
+    section, manifest = with_parts
+    gathered = gather_clouds(manifest, "train", dataset=section, points=points, seed=3, repeat=True, progress=False)
+    write_cloud_set(gathered, tmp_path / "clouds.npz")
+    clouds = read_cloud_set(tmp_path / "clouds.npz")
+    assert clouds.categories.tolist() == ["Chair", "Lamp"]
+    assert clouds.lengths.tolist() == [min(points, 5)] * 2
+    first = {"Chair": 12, "Lamp": 24}
+    assert len(clouds.part_classes) == 50
+    for part, label in enumerate(clouds.part_classes):
+        owner = next((name for name, start in first.items() if start <= part < start + 4), None)
+        assert (clouds.class_names[label] if label >= 0 else None) == owner
+    dataset = open_configured(section, seed=1)
+    entries = sorted((entry.id, entry.path) for entry in dataset.list_shapes() if entry.split == "train")
+    for shape, (_, path) in enumerate(entries):
+        original = dataset.load(path)
+        found = clouds.points[shape] * clouds.scales[shape] + clouds.centres[shape]
+        nearest = np.linalg.norm(found[:, None] - original.points, axis=2).argmin(axis=1)
+        kept = clouds.parts[shape] >= 0
+        assert np.array_equal(clouds.parts[shape][kept], original.labels[nearest][kept])
+        assert len(set(nearest[kept].tolist())) == kept.sum()
+        assert np.array_equal(nearest, nearest[np.arange(points) % min(points, 5)])  # the others repeat them in order
+
+
+def test_a_data_set_without_parts_has_none(gathered):
+    assert gathered.parts is None
+    assert gathered.part_classes is None
+    assert gathered.lengths.tolist() == [20, 20, 20]
 
 
 def test_a_file_gives_the_clouds_back(tmp_path):

@@ -29,6 +29,24 @@ def test_every_data_set_composes(dataset):
     assert str(config.dataset.root) == "/somewhere"
 
 
+@pytest.mark.parametrize(
+    ("overrides", "segmented"),
+    [
+        ([], "synthetic_parts"),
+        (["dataset=modelnet40"], "shapenetpart"),
+        (["dataset=shapenetpart"], "shapenetpart"),
+        (["~parts"], "synthetic"),
+        (["dataset=class_tree", "dataset.root=/a"], None),
+        (["dataset=class_tree", "dataset.root=/a", "parts=shapenetpart", "parts.root=/b"], "shapenetpart"),
+    ],
+)
+def test_parts_are_those_of_the_second_data_set_or_else_of_the_first(overrides, segmented):
+    config = compose(overrides)
+    assert (config.segmented and config.segmented.name) == segmented
+    if config.parts is None and segmented:
+        assert config.segmented is config.dataset
+
+
 def test_an_override_beats_the_experiment():
     config = compose(["experiment=paper", "skeleton.candidates.count=5000", "surface=[alpha_shape]"])
     assert config.skeleton.candidates.count == 5000
@@ -72,6 +90,16 @@ def test_a_group_can_be_given_as_one_or_as_a_list():
         ("dataset.url=3", r"dataset\.url"),
         ("shard_size=0", r"shard_size: .*greater than 0, got 0"),
         ("run=a/b", r"run: .*pattern"),
+        ("parts=null", r"parts: null is no choice; to choose none, write ~parts"),
+        ("parts=sharenetpart", r"parts: no such choice 'sharenetpart'; did you mean 'shapenetpart'"),
+        ("parts.name=synthetic", r"^parts: expected a name other than synthetic.*write ~parts"),
+        ("parts.per_category=3", r"^parts\.per_category: .*got 3"),
+        (
+            "tasks.segmentation.ratios=[16,8]",
+            r"^tasks\.segmentation: ms3d, uniform would have to choose 64, 128 points",
+        ),
+        ("tasks.segmentation.strategies=[fps,fps]", r"^tasks\.segmentation: strategies: expected different samplers"),
+        ("tasks.segmentation.strategies=[fsp]", r"^tasks\.segmentation\.strategies\.0: .*'fsp'"),
         ("nonsense", r"'nonsense' is not an override; expected key=value"),
         ("a=b=[", r"is not an override"),
     ],

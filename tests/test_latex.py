@@ -70,3 +70,31 @@ def test_numbers_inside_a_cell_have_minus_signs_too():
 
 def test_without_footnotes_there_is_no_empty_list():
     assert "enumerate" not in render_latex(MATRICES, "Title", [])
+
+
+def tall(methods):
+    """One matrix of so many methods."""
+    blocks = tuple(MethodBlock(f"M{number}", (Line("ours", ("1.0",), (False,)),)) for number in range(methods))
+    return MetricMatrix(find_metric("oa"), ("8",), blocks)
+
+
+def test_what_does_not_fit_on_a_page_goes_on_in_another_float():
+    text = render_latex([tall(20), tall(20), tall(20)], "Title", ["First."])
+    floats = text.split("\\begin{table*}[p]")[1:]
+    assert [part.count("\\begin{tabular}") for part in floats] == [2, 1]
+    assert all(part.rstrip().endswith("\\end{table*}") for part in floats)
+    assert all("\\scriptsize" in part for part in floats)
+    assert text.count("\\caption{Title}") == 1
+    assert "\\item First." in floats[-1]
+    assert text.count("\\toprule") == 3
+
+
+def test_one_tabular_is_never_without_a_float_however_tall():
+    text = render_latex([tall(200)], "Title", [])
+    assert text.count("\\begin{table*}") == 1
+
+
+def test_footnotes_that_do_not_fit_have_a_float_of_their_own():
+    text = render_latex([tall(40)], "Title", ["word " * 400] * 3)
+    assert text.count("\\begin{table*}") == 2
+    assert text.index("\\bottomrule") < text.rindex("\\begin{table*}") < text.index("\\begin{enumerate}")

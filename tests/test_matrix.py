@@ -3,7 +3,8 @@ import math
 import pandas as pd
 import pytest
 
-from morphoskel.reporting.matrix import cell_text, metric_matrices, rivals
+from morphoskel.evaluation.averages import AVERAGES
+from morphoskel.reporting.matrix import WIDEST, cell_text, metric_matrices, rivals
 from morphoskel.reporting.metrics import find_metric
 from morphoskel.reporting.table import COLUMNS
 
@@ -104,6 +105,12 @@ def test_rows_under_another_classifier_are_no_rivals():
     assert [line(block, "ours").best[0] for block in matrix.blocks] == [True, False, True, True]
 
 
+def test_only_rows_with_equally_many_labels_are_rivals():
+    rows = [("A", 0.9), ("B, ratio 16", 0.6), ("C, ratio 16", 0.7), ("B, ratio 32", 0.5), ("C, ratio 32", 0.4)]
+    (matrix,) = metric_matrices(frame_of(*((name, "Mug", "miou", value, math.nan, 1, 0) for name, value in rows)))
+    assert [line(block, "ours").best[0] for block in matrix.blocks] == [False, False, True, True, False]
+
+
 def test_ratios_are_sorted_by_size():
     rows = [("A", "64"), ("A", "8"), ("B", "16"), ("B", "8")]
     (matrix,) = metric_matrices(frame_of(*((name, group, "oa", 1.0, math.nan, 1, 0) for name, group in rows)))
@@ -133,3 +140,31 @@ def test_two_companions_are_written_one_after_the_other():
     (matrix,) = metric_matrices(frame_of(*(("A minus B", "8", name, value, math.nan, 1, 0) for name, value in rows)))
     assert line(matrix.blocks[0], "ours").cells == ("0.4 (-0.2 to 1.0)",)
     assert matrix.heading == "Difference of overall accuracies (points of %), 95 % interval over shapes"
+
+
+def wide(count):
+    """A table of so many categories and the two averages, one of them with an interval."""
+    groups = [f"c{number}" for number in range(count)] + list(AVERAGES)
+    values = [(group, float(number)) for number, group in enumerate(groups)]
+    rows = [(method, group, "miou", value, math.nan, 1, 0) for method in "AB" for group, value in values]
+    return frame_of(*rows, ("A", AVERAGES[1], "miou_interval", 0.5, math.nan, 1, 0))
+
+
+def test_a_table_that_fits_on_a_page_stays_whole():
+    (matrix,) = metric_matrices(wide(WIDEST - 2))
+    assert len(matrix.groups) == WIDEST
+    assert matrix.heading == find_metric("miou").heading + ", ± half-width of the 95 % interval over shapes"
+
+
+@pytest.mark.parametrize(("count", "widths"), [(WIDEST - 1, [2, 11]), (16, [2, 8, 8]), (25, [2, 9, 9, 7])])
+def test_a_wide_table_is_split_with_the_averages_first(count, widths):
+    matrices = metric_matrices(wide(count))
+    assert [len(matrix.groups) for matrix in matrices] == widths
+    averages, *others = matrices
+    assert averages.groups == AVERAGES
+    assert [group for matrix in others for group in matrix.groups] == [f"c{number}" for number in range(count)]
+    assert all(matrix.blocks[1].lines[0].cells[-1] == f"{int(matrix.groups[-1][1:])}.0" for matrix in others)
+    assert line(averages.blocks[0], "ours").cells[1].endswith(" ± 0.5")
+    title = find_metric("miou").heading
+    assert averages.heading == f"{title}: averages, ± half-width of the 95 % interval over shapes"
+    assert others[0].heading == f"{title}: c0 to c{widths[1] - 1}"

@@ -22,7 +22,8 @@ def test_an_unknown_metric_is_named_with_the_known_ones():
 def test_parts_belong_to_metrics_that_have_a_table_and_hold_one_number():
     parts = [metric for metric in METRICS.values() if metric.part_of]
     assert {part.name for part in parts} == {
-        "oa_interval", "oa_difference_low", "oa_difference_high", "map_interval"
+        "oa_interval", "oa_difference_low", "oa_difference_high", "map_interval",
+        "miou_interval", "miou_difference_low", "miou_difference_high",
     }  # fmt: skip
     for part in parts:
         assert not METRICS[part.part_of].part_of
@@ -30,5 +31,5 @@ def test_parts_belong_to_metrics_that_have_a_table_and_hold_one_number():
 
 
 def test_what_describes_a_sample_is_not_contested():
-    assert [METRICS[name].better for name in ("distinct_points", "oa_draws", "mcnemar_p")] == [None] * 3
+    assert [METRICS[name].better for name in ("distinct_points", "oa_draws", "mcnemar_p", "labels")] == [None] * 4
     assert METRICS["map_excluded"].better == "higher"

@@ -11,6 +11,7 @@ from morphoskel.reporting.sampling_values import (
     deviation_over_draws,
     equality_test,
     interval_half_width,
+    mean_over_categories,
     mean_over_shapes,
     subtract,
 )
@@ -60,6 +61,29 @@ def test_the_same_id_in_two_categories_is_two_shapes():
     assert mean_over_shapes(rows, "correct").value == 50.0
 
 
+def test_categories_weigh_the_same_whatever_their_size():
+    values = {"chair": [[1.0, 0.5, 0.6], [0.2, 0.4, math.nan]], "mug": [[0.1], [0.3]]}
+    rows = shape_frame(
+        *(
+            shape_rows("ms3d", of_training, seed=seed, category=category)
+            for category, trainings_ in values.items()
+            for seed, of_training in enumerate(trainings_)
+        )
+    )
+    mean = mean_over_categories(rows, "correct")
+    of_trainings = [100 * ((1.0 + 0.5) / 2 + 0.1) / 2, 100 * ((0.2 + 0.4) / 2 + 0.3) / 2]
+    assert mean.value == pytest.approx(sum(of_trainings) / 2)
+    assert mean.std == pytest.approx(statistics.stdev(of_trainings))
+    assert (mean.n, mean.n_failed) == (3, 1)
+    shuffled = mean_over_categories(rows.sample(frac=1, random_state=0), "correct")
+    assert (shuffled.value, shuffled.std) == (mean.value, mean.std)
+
+
+def test_a_category_without_a_value_leaves_no_mean_over_categories():
+    rows = shape_frame(shape_rows("ms3d", [1.0]), shape_rows("ms3d", [math.nan], category="mug"))
+    assert math.isnan(mean_over_categories(rows, "correct").value)
+
+
 def test_deviation_over_draws_is_pooled_over_trainings():
     draws = draw_frame(draw_rows("ms3d", [0.1, 0.3]), draw_rows("ms3d", [0.5, 0.6, 0.7], seed=1))
     expected = 100 * math.sqrt((statistics.variance([0.1, 0.3]) + statistics.variance([0.5, 0.6, 0.7])) / 2)
@@ -104,6 +128,15 @@ def test_differences_are_over_the_shapes_of_both():
 def test_a_row_minus_itself_is_exactly_nothing():
     rows = trainings(np.random.default_rng(0).random(10))
     assert {cell.value for cell in subtract(rows, rows, "correct", "x").values()} == {0.0}
+
+
+def test_differences_are_named_after_their_metric():
+    rows = trainings([1.0, 0.5]), trainings([0.0, 0.5])
+    names = ["miou_difference", "miou_difference_low", "miou_difference_high"]
+    assert list(subtract(*rows, "correct", "x", metric="miou")) == names
+    assert list(subtract(*rows, "correct", "x", metric="miou").values()) == list(
+        subtract(*rows, "correct", "x").values()
+    )
 
 
 def test_pairs_are_tighter_than_their_parts():

@@ -161,3 +161,13 @@ def test_real_data_with_normals(real_data, tmp_path):
         cloud = dataset.load(entry.path)
         assert set(cloud.labels) <= set(PARTS[entry.category])
         np.testing.assert_allclose(np.linalg.norm(cloud.normals, axis=1), 1)
+
+
+def test_axes_can_be_exchanged(root):
+    usual, turned = ShapeNetPartDataset(root), ShapeNetPartDataset(root, axes=("x", "z", "-y"))
+    for entry in usual.list_shapes():
+        first, second = usual.load(entry.path), turned.load(entry.path)
+        assert np.array_equal(second.points, first.points[:, [0, 2, 1]] * [1, 1, -1])
+        assert np.array_equal(second.labels, first.labels)
+        if first.normals is not None:
+            assert np.array_equal(second.normals, first.normals[:, [0, 2, 1]] * [1, 1, -1])

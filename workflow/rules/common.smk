@@ -1,17 +1,13 @@
 # What all rules share: the configuration, the axes of the experiment, and the helpers that read them.
 import os
+import re
+from itertools import chain
 from pathlib import Path
 
 from morphoskel.config import compose
 from morphoskel.datasets.configured import count_shapes
 from morphoskel.methods import CLOUD_METHODS, MORPHOLOGICAL
 from morphoskel.provenance import code_digest, content_hash, remember_digests
-from morphoskel.sampling.samplers import (
-    GENERATORS,
-    LEARNED,
-    LEARNED_SKELETON,
-    SKELETON_OF,
-)
 
 # The scripts import the library from this clone, also inside an environment that Snakemake deploys.
 os.environ.update(PYTHONPATH=f"{workflow.basedir}/src")
@@ -20,7 +16,18 @@ remember_digests(Path(".snakemake/code_digests.json"))
 
 CONFIG = compose(config.get("overrides", []), Path(workflow.basedir) / "config")
 SECTIONS = CONFIG.model_dump(mode="json")
-SHAPES = count_shapes(SECTIONS["dataset"], seed=CONFIG.seed)
+
+# The data sets by name, and the number of shapes of each split. The second one, if there is one, is for part
+# segmentation alone: only the skeletons that this needs are made of it.
+DATASETS = {
+    chosen["name"]: chosen
+    for chosen in (SECTIONS["dataset"], SECTIONS["parts"])
+    if chosen
+}
+ALL_SHAPES = {
+    name: count_shapes(chosen, seed=CONFIG.seed) for name, chosen in DATASETS.items()
+}
+SHAPES = ALL_SHAPES[CONFIG.dataset.name]
 
 # What stands in the place of a surface reconstruction for methods that work on the cloud itself.
 CLOUD = "cloud"
@@ -33,14 +40,16 @@ pathvars:
 
 
 wildcard_constraints:
-    dataset=CONFIG.dataset.name,
-    split="|".join(SHAPES),
+    dataset="|".join(map(re.escape, DATASETS)),
+    split="|".join(dict.fromkeys(chain.from_iterable(ALL_SHAPES.values()))),
     surface="|".join([*CONFIG.surface.names, CLOUD]),
     skeleton="[a-z0-9_]+",
     shard=r"\d{5}",
     sampler="[a-z0-9_]+",
     ratio=r"\d+",
     seed=r"\d+",
+    points=r"\d+",
+    strategy="[a-z0-9_]+",
     classifier="[a-z0-9_]+",
 
 
@@ -52,9 +61,19 @@ def section(*keys):
     return values
 
 
-def shards(split):
+def dataset_section(wildcards):
+    """Return the section of the data set that the wildcard names."""
+    return DATASETS[wildcards.dataset]
+
+
+def shape_counts(wildcards):
+    """Return the number of shapes of each split of the data set that the wildcard names."""
+    return ALL_SHAPES[wildcards.dataset]
+
+
+def shards(split, dataset=CONFIG.dataset.name):
     """Return the names of the shards of a split; static, from the number of shapes."""
-    count = -(-SHAPES[split] // CONFIG.shard_size)
+    count = -(-ALL_SHAPES[dataset][split] // CONFIG.shard_size)
     return [f"{number:05d}" for number in range(count)]
 
 
@@ -81,13 +100,6 @@ SKELETONS = (
 )
 AXES = f"{RESULTS}/medial_axis/{{dataset}}/{{split}}/{{shard}}"
 EVALUATION = f"{RESULTS}/evaluation/{{dataset}}/{{split}}/{{surface}}/{{skeleton}}.csv"
-CLOUDS = f"{RESULTS}/clouds/{{dataset}}/{{split}}.npz"
-PRIORS = f"{RESULTS}/priors/{{dataset}}/{{split}}/{{skeleton}}.npz"
-TRAINED_SAMPLER = (
-    f"{RESULTS}/networks/{{dataset}}/sampler/{{sampler}}/{{ratio}}/{{seed}}/network.pt"
-)
-SAMPLES = f"{RESULTS}/samples/{{dataset}}/{{split}}/{{sampler}}"
-JUDGED = f"{RESULTS}/evaluation/{{{{dataset}}}}/{{{{split}}}}/samples/{{{{sampler}}}}_{{level}}.csv"
 
 # What a training asks for beside processors.
 TRAINING_DEVICES = (
@@ -127,13 +139,13 @@ def can_have_network():
     return bool(CONFIG.methods.point2skeleton.trained) or SHAPES.get("train", 0) > 1
 
 
-def of_shards(pattern, split, **wildcards):
+def of_shards(pattern, split, dataset=CONFIG.dataset.name, **wildcards):
     """Return the folders of all shards of a split."""
     return expand(
         pattern,
-        dataset=CONFIG.dataset.name,
+        dataset=dataset,
         split=split,
-        shard=shards(split),
+        shard=shards(split, dataset),
         **wildcards,
     )
 
@@ -220,125 +232,12 @@ def dataset_source(wildcards):
     A folder that a rule makes is made anew when its code or settings change, and the manifest after it. A folder of
     the user's is looked at for its number of shapes only: its time changes with every file put beside them.
     """
-    root = section("dataset", "root")
-    if CONFIG.dataset.kind == "synthetic":
-        return [root]
-    if CONFIG.dataset.root.exists() or getattr(CONFIG.dataset, "url", None):
-        return [ancient(root)]
+    chosen = dataset_section(wildcards)
+    if chosen["kind"] == "synthetic":
+        return [chosen["root"]]
+    if Path(chosen["root"]).exists() or chosen.get("url"):
+        return [ancient(chosen["root"])]
     return []
-
-
-def samplers():
-    """Return the samplers to run: those chosen whose skeletons are made, if there are shapes to learn from."""
-    if SHAPES.get("train", 0) < 2 or not CONFIG.tasks.classification:
-        return []
-    made = [LEARNED_SKELETON, *CONFIG.methods.names]
-    if CONFIG.sampling.surface in CONFIG.surface.names:
-        made.append("ms3d")
-    return [
-        sampler
-        for sampler in CONFIG.samplers.names
-        if SKELETON_OF.get(sampler, LEARNED_SKELETON) in made
-    ]
-
-
-def prior_skeletons(wildcards):
-    """Return the skeleton folders to which local feature sizes are measured."""
-    on_cloud = wildcards.skeleton in CLOUD_METHODS
-    return of_shards(
-        SKELETONS,
-        wildcards.split,
-        surface=CLOUD if on_cloud else CONFIG.sampling.surface,
-        skeleton=wildcards.skeleton if on_cloud else CONFIG.sampling.skeleton,
-    )
-
-
-def priors_on(split, sampler):
-    """Return the file of local feature sizes of a split that a sampler needs, if it needs one."""
-    needed = [SKELETON_OF[sampler]] if sampler in SKELETON_OF else []
-    return expand(PRIORS, dataset=CONFIG.dataset.name, split=split, skeleton=needed)
-
-
-def training_priors(wildcards):
-    """Return the local feature sizes that a sampler is trained with."""
-    return priors_on("train", wildcards.sampler)
-
-
-def sampler_priors(wildcards):
-    """Return the local feature sizes of the split that is sampled."""
-    return priors_on(wildcards.split, wildcards.sampler)
-
-
-def trained_samplers(wildcards):
-    """Return the networks of a sampler for all ratios and seeds; none if it needs no training."""
-    return expand(
-        TRAINED_SAMPLER,
-        dataset=wildcards.dataset,
-        sampler=[wildcards.sampler] if wildcards.sampler in LEARNED else [],
-        ratio=CONFIG.sampling.ratios,
-        seed=range(CONFIG.sampling.seeds),
-    )
-
-
-def samples_to_judge(wildcards):
-    """Return the folder of chosen points; none where all points are judged."""
-    chosen = [] if wildcards.sampler == "all_points" else [wildcards.sampler]
-    return expand(
-        SAMPLES, dataset=wildcards.dataset, split=wildcards.split, sampler=chosen
-    )
-
-
-def judging_classifiers(wildcards):
-    """Return the classifiers that train a sampler; those of Meta-Sampler do not test it."""
-    teachers = [
-        f"teacher_{number}" for number in range(CONFIG.tasks.classification.teachers)
-    ]
-    return expand(
-        rules.train_classifier.output[0],
-        dataset=wildcards.dataset,
-        classifier=teachers if wildcards.sampler == "metasampler" else ["task"],
-    )
-
-
-def classifier_settings(wildcards):
-    """Return how the classifier that the wildcard names is trained."""
-    kind = "plain" if wildcards.classifier == "plain" else "classifier"
-    return section("tasks", "classification", kind)
-
-
-def sampler_settings(wildcards):
-    """Return the settings of the network of a sampler; all priors share theirs."""
-    if wildcards.sampler in GENERATORS:
-        return section("samplers", wildcards.sampler)
-    return section("sampling", "network")
-
-
-def judged(level):
-    """Return the result files of every sampler, and of all points, by shape or by draw."""
-    return expand(
-        JUDGED.format(level=level),
-        dataset=CONFIG.dataset.name,
-        split=CONFIG.evaluation.split,
-        sampler=["all_points", *samplers()] if samplers() else [],
-    )
-
-
-def sampling_tables():
-    """Return the tables of the samplers, if any are run."""
-    names = ["object_classification", "point_cloud_retrieval", "skeleton_prior"]
-    return expand(f"{RESULTS}/tables/{{name}}.csv", name=names if samplers() else [])
-
-
-def sampling_provenance():
-    """Return what the caption of a table of samplers has to tell beside."""
-    steps = CONFIG.sampling.steps
-    return {
-        **provenance(),
-        "seeds": CONFIG.sampling.seeds,
-        "draws": CONFIG.sampling.draws,
-        "budget": (f"{steps} steps" if steps else "published numbers of epochs")
-        + f" a training on clouds of {CONFIG.sampling.points} points",
-    }
 
 
 def provenance():

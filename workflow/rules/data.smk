@@ -37,6 +37,29 @@ if CONFIG.dataset.kind == "synthetic":
             "../scripts/generate_synthetic.py"
 
 
+if CONFIG.parts and CONFIG.parts.kind == "synthetic":
+
+    rule generate_synthetic_parts:
+        output:
+            directory(section("parts", "root")),
+        log:
+            f"resources/logs/generate_{CONFIG.parts.name}.log",
+        benchmark:
+            f"resources/benchmarks/generate_{CONFIG.parts.name}.tsv"
+        conda:
+            "../../environment.yml"
+        threads: workflow.cores or 1
+        resources:
+            mem_mb=2000,
+            runtime=120,
+        params:
+            dataset=section("parts"),
+            seed=CONFIG.seed,
+            digest=code_digest("datasets.synthetic.generate"),
+        script:
+            "../scripts/generate_synthetic.py"
+
+
 if getattr(CONFIG.dataset, "url", None) and not CONFIG.dataset.root.exists():
 
     rule download_dataset:
@@ -56,6 +79,25 @@ if getattr(CONFIG.dataset, "url", None) and not CONFIG.dataset.root.exists():
             "../scripts/download_dataset.py"
 
 
+if getattr(CONFIG.parts, "url", None) and not CONFIG.parts.root.exists():
+
+    rule download_parts:
+        output:
+            directory(section("parts", "root")),
+        log:
+            f"resources/logs/download_{CONFIG.parts.name}.log",
+        conda:
+            "../../environment.yml"
+        resources:
+            mem_mb=500,
+            runtime=600,
+        params:
+            url=CONFIG.parts.url,
+            sha256=CONFIG.parts.sha256,
+        script:
+            "../scripts/download_dataset.py"
+
+
 rule write_manifest:
     input:
         dataset_source,
@@ -71,10 +113,10 @@ rule write_manifest:
         mem_mb=500,
         runtime=60,
     params:
-        dataset=section("dataset"),
+        dataset=dataset_section,
         seed=CONFIG.seed,
         shard_size=CONFIG.shard_size,
-        counts=SHAPES,
+        counts=shape_counts,
         digest=code_digest("datasets.manifest", "datasets.registry"),
     script:
         "../scripts/write_manifest.py"

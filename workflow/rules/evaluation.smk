@@ -49,7 +49,7 @@ rule evaluate_skeletons:
         mem_mb=1000,
         runtime=120,
     params:
-        dataset=section("dataset"),
+        dataset=dataset_section,
         balls=evaluated_balls,
         seed=CONFIG.seed,
         max_failed=CONFIG.max_failed,

@@ -35,7 +35,7 @@ if CONFIG.methods.point2skeleton:
 
 rule train_classifier:
     input:
-        clouds=CLOUDS.replace("{split}", "train"),
+        clouds=SAMPLED_CLOUDS.replace("{split}", "train"),
     output:
         f"{RESULTS}/networks/{{dataset}}/classifier/{{classifier}}/network.pt",
     log:
@@ -64,7 +64,7 @@ if CONFIG.samplers.skeleton_aware:
 
     rule train_skeleton_aware:
         input:
-            clouds=CLOUDS.replace("{split}", "train").format(
+            clouds=SAMPLED_CLOUDS.replace("{split}", "train").format(
                 dataset=CONFIG.dataset.name
             ),
         output:
@@ -93,7 +93,7 @@ if CONFIG.samplers.skeleton_aware:
 
 rule train_sampler:
     input:
-        clouds=CLOUDS.replace("{split}", "train"),
+        clouds=SAMPLED_CLOUDS.replace("{split}", "train"),
         priors=training_priors,
         classifiers=judging_classifiers,
     output:

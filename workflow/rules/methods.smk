@@ -21,7 +21,7 @@ rule coverage_axis:
         runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
-        dataset=section("dataset"),
+        dataset=dataset_section,
         dataset_seed=CONFIG.seed,
         candidates=section("skeleton", "candidates"),
         coverage_axis=section("methods", "coverage_axis"),
@@ -48,7 +48,7 @@ rule l1_medial:
         runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
-        dataset=section("dataset"),
+        dataset=dataset_section,
         dataset_seed=CONFIG.seed,
         l1_medial=section("methods", "l1_medial"),
         seed=CONFIG.seed,
@@ -74,7 +74,7 @@ rule dpc:
         runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
-        dataset=section("dataset"),
+        dataset=dataset_section,
         dataset_seed=CONFIG.seed,
         dpc=section("methods", "dpc"),
         seed=CONFIG.seed,
@@ -106,7 +106,7 @@ if CONFIG.methods.point2skeleton:
             runtime=MINUTES,
             shape_threads=CONFIG.threads,
         params:
-            dataset=section("dataset"),
+            dataset=dataset_section,
             dataset_seed=CONFIG.seed,
             refine_radii=CONFIG.methods.point2skeleton.refine_radii,
             seed=CONFIG.seed,

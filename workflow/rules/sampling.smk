@@ -8,17 +8,18 @@ rule gather_clouds:
     output:
         CLOUDS,
     log:
-        "<logs>/gather_clouds/{dataset}/{split}.log",
+        "<logs>/gather_clouds/{dataset}/{split}/{points}.log",
     benchmark:
-        "<benchmarks>/gather_clouds/{dataset}/{split}.tsv"
+        "<benchmarks>/gather_clouds/{dataset}/{split}/{points}.tsv"
     conda:
         "../../environment.yml"
     resources:
         mem_mb=2000,
         runtime=60,
     params:
-        dataset=section("dataset"),
-        points=CONFIG.sampling.points,
+        dataset=dataset_section,
+        points="{points}",
+        repeat=repeats,
         seed=CONFIG.seed,
         digest=code_digest("datasets.cloud_set"),
     script:
@@ -32,9 +33,9 @@ rule local_feature_size:
     output:
         PRIORS,
     log:
-        "<logs>/local_feature_size/{dataset}/{split}/{skeleton}.log",
+        "<logs>/local_feature_size/{dataset}/{split}/{points}/{skeleton}.log",
     benchmark:
-        "<benchmarks>/local_feature_size/{dataset}/{split}/{skeleton}.tsv"
+        "<benchmarks>/local_feature_size/{dataset}/{split}/{points}/{skeleton}.tsv"
     wildcard_constraints:
         skeleton="ms3d|dpc|l1_medial",
     conda:
@@ -58,9 +59,9 @@ if CONFIG.samplers.skeleton_aware:
         output:
             PRIORS.replace("{skeleton}", "skeleton_aware"),
         log:
-            "<logs>/local_feature_size/{dataset}/{split}/skeleton_aware.log",
+            "<logs>/local_feature_size/{dataset}/{split}/{points}/skeleton_aware.log",
         benchmark:
-            "<benchmarks>/local_feature_size/{dataset}/{split}/skeleton_aware.tsv"
+            "<benchmarks>/local_feature_size/{dataset}/{split}/{points}/skeleton_aware.tsv"
         conda:
             "../../environment.yml"
         threads: CONFIG.trainer.threads
@@ -75,7 +76,7 @@ if CONFIG.samplers.skeleton_aware:
 
 rule choose_points:
     input:
-        clouds=CLOUDS,
+        clouds=SAMPLED_CLOUDS,
         priors=sampler_priors,
         networks=trained_samplers,
     output:
@@ -103,7 +104,7 @@ rule choose_points:
 
 rule evaluate_samples:
     input:
-        clouds=CLOUDS,
+        clouds=SAMPLED_CLOUDS,
         priors=sampler_priors,
         samples=samples_to_judge,
         classifiers=expand(

@@ -18,7 +18,7 @@ rule reconstruct:
         runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
-        dataset=section("dataset"),
+        dataset=dataset_section,
         dataset_seed=CONFIG.seed,
         surface="{surface}",
         reconstruction=reconstruction,
@@ -181,7 +181,7 @@ rule cover_skeleton:
         runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
-        dataset=section("dataset"),
+        dataset=dataset_section,
         dataset_seed=CONFIG.seed,
         candidates=section("skeleton", "candidates"),
         k=CONFIG.skeleton.k,

@@ -166,3 +166,29 @@ rule table_skeleton_prior:
         digest=code_digest("reporting.sampling_table_files"),
     script:
         "../scripts/write_sampling_table.py"
+
+
+rule table_part_segmentation:
+    input:
+        rows=segmented(),
+        published=Path(workflow.basedir) / "config/paper/part_segmentation_miou.csv",
+    output:
+        csv="<results>/tables/part_segmentation.csv",
+        tex="<results>/tables/part_segmentation.tex",
+        md=report(
+            "<results>/tables/part_segmentation.md",
+            caption="../report/part_segmentation.rst",
+            category="Tables",
+        ),
+    log:
+        "<logs>/table_part_segmentation.log",
+    conda:
+        "../../environment.yml"
+    resources:
+        mem_mb=2000,
+        runtime=10,
+    params:
+        provenance=segmentation_provenance(),
+        digest=code_digest("reporting.segmentation_table_files"),
+    script:
+        "../scripts/write_segmentation_table.py"

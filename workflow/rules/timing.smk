@@ -18,7 +18,7 @@ rule time_stages:
         mem_mb=MEMORY,
         runtime=240,
     params:
-        dataset=section("dataset"),
+        dataset=dataset_section,
         reconstruction=reconstruction,
         watertight=section("watertight"),
         skeleton=section("skeleton"),

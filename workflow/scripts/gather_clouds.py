@@ -10,7 +10,8 @@ clouds = gather_clouds(
     Path(snakemake.input.manifest),
     snakemake.wildcards.split,
     dataset=snakemake.params.dataset,
-    points=snakemake.params.points,
+    points=int(snakemake.params.points),
+    repeat=snakemake.params.repeat,
     seed=snakemake.params.seed,
 )
 write_cloud_set(clouds, Path(snakemake.output[0]))

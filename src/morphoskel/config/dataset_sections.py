@@ -9,6 +9,7 @@ from morphoskel.config.sections import Section
 
 NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9_.-]*$"
 Name = Annotated[str, Field(pattern=NAME_PATTERN)]
+Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
 
 
 class SyntheticDataset(Section):
@@ -53,6 +54,10 @@ class ShapeNetPartDataset(Section):
     root: Path = Field(description="folder with synsetoffset2category.txt and one folder a category")
     categories: tuple[str, ...] | None = Field(description="categories to use; null: all")
     allow_missing: bool = Field(description="leave out, and count, listed shapes that the folder lacks")
+    axes: tuple[Axis, Axis, Axis] = Field(
+        description="which axes of the files become x, y and z, turned round by a minus; so that shapes stand like those "
+        "that samplers were trained on"
+    )
     counts: dict[str, PositiveInt] = Field(description="published number of shapes of each split, for planning")
     url: str | None = Field(description="address of the public archive, or null")
     sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] | None = Field(description="checksum of the archive")

@@ -42,6 +42,8 @@ def check_overrides(overrides: Sequence[str], folder: Path) -> None:
         key = override.key_or_group
         if key in groups:
             value = override.value()
+            if value is None and not override.is_delete():
+                raise ConfigError(f"{key}: null is no choice; to choose none, write ~{key}")
             chosen = value if isinstance(value, list) else [value]
             for member in chosen:
                 if member is not None and str(member) not in groups[key]:
@@ -57,7 +59,7 @@ def explain_validation(error: ValidationError, values: Mapping[str, Any]) -> str
         location = [
             str(part)
             for place, part in enumerate(finding["loc"])
-            if not (place == 1 and finding["loc"][0] == "dataset" and part in _UNION_TAGS)
+            if not (place == 1 and finding["loc"][0] in ("dataset", "parts") and part in _UNION_TAGS)
         ]
         key = ".".join(location)
         if finding["type"] == "extra_forbidden":
@@ -68,7 +70,8 @@ def explain_validation(error: ValidationError, values: Mapping[str, Any]) -> str
         else:
             message = finding["msg"].removeprefix("Value error, ")
             found = "" if isinstance(finding["input"], Mapping) else f", got {finding['input']!r}"
-            lines.append(f"{key}: {message}{found}{_describe(location)}")
+            # A check of the whole configuration has no place and names the keys itself.
+            lines.append(f"{key}: {message}{found}{_describe(location)}" if location else message)
     return "\n".join(lines)
 
 

@@ -7,6 +7,7 @@ from pydantic import Field, PositiveInt, model_validator
 from morphoskel.config.sections import Section, section_of
 from morphoskel.networks.classifier_settings import ClassifierSettings
 from morphoskel.networks.generator_settings import GeneratorSettings
+from morphoskel.networks.segmentation_settings import SegmentationSettings
 from morphoskel.networks.skeleton_aware_settings import SkeletonAwareSettings
 from morphoskel.networks.skeleton_sampler_settings import SkeletonSamplerSettings
 from morphoskel.sampling.lfs import LfsSettings
@@ -18,6 +19,12 @@ SkeletonAware: Any = section_of(SkeletonAwareSettings)
 Prior: Any = section_of(PriorSettings)
 Lfs: Any = section_of(LfsSettings)
 Classifier: Any = section_of(ClassifierSettings)
+Segmenter: Any = section_of(SegmentationSettings)
+
+Strategy = Literal[
+    "random", "fps", "lfs", "snet", "samplenet", "metasampler",
+    "skeleton_aware", "ms3d", "dpc", "l1_medial", "uniform", "shuffled",
+]  # fmt: skip
 
 
 class Sampling(Section):
@@ -87,7 +94,48 @@ class Classification(Section):
     teachers: PositiveInt = Field(description="further task networks that train Meta-Sampler; the first one tests it")
 
 
+class Segmentation(Section):
+    """Part segmentation from few labels."""
+
+    strategies: tuple[Strategy, ...] = Field(
+        min_length=1, description="samplers that choose the labelled points; all labels are always run beside"
+    )
+    points: Annotated[int, Field(ge=2)] = Field(description="points of the clouds that are segmented")
+    ratios: tuple[Annotated[int, Field(ge=2)], ...] = Field(
+        min_length=1, description="points of the cloud for each one with a label"
+    )
+    seeds: PositiveInt = Field(description="trainings of each row")
+    training: Literal["train", "trainval"] = Field(
+        description="train: the split val chooses the epoch, if there is one; trainval: trains on it, too"
+    )
+    validation_share: Annotated[float, Field(gt=0, lt=1)] = Field(
+        description="share of the training shapes of each class held out to choose the epoch where no split does"
+    )
+    validation_labels: Literal["labelled", "all"] = Field(
+        description="labels that choose the epoch: of the labelled points alone, or of all points"
+    )
+    label_sets: PositiveInt = Field(
+        description="choices of labelled points of a shape; 1: chosen once, as a budget of labels asks for; more: the "
+        "epochs take turns, and more labels are seen"
+    )
+    completed: bool = Field(
+        description="whether farthest points take the place of points that a sampler chose twice; only so has every "
+        "shape as many labels as the ratio says"
+    )
+    network: Segmenter = Field(description="the network and its training")
+
+    @model_validator(mode="after")
+    def check_ratios(self) -> "Segmentation":
+        """Refuse ratios that leave no point, and names given twice."""
+        if max(self.ratios) > self.points or len(set(self.ratios)) != len(self.ratios):
+            raise ValueError(f"ratios: expected different numbers of at most {self.points}, the points of a cloud")
+        if len(set(self.strategies)) != len(self.strategies):
+            raise ValueError(f"strategies: expected different samplers, got {', '.join(self.strategies)}")
+        return self
+
+
 class Tasks(Section):
     """The tasks to learn."""
 
     classification: Classification | None = Field(default=None, description="classification and retrieval")
+    segmentation: Segmentation | None = Field(default=None, description="part segmentation from few labels")

@@ -6,13 +6,14 @@ Unknown keys are refused everywhere. Sections are frozen; a rule receives only t
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, PositiveFloat, PositiveInt
+from pydantic import BeforeValidator, Field, PositiveFloat, PositiveInt, model_validator
 
 from morphoskel.config.dataset_sections import Dataset, Name
 from morphoskel.config.sampling_sections import Samplers, Sampling, Tasks
 from morphoskel.config.sections import Section, section_of
 from morphoskel.config.surface_sections import Surface
 from morphoskel.networks.point2skeleton_settings import Point2SkeletonSettings
+from morphoskel.sampling.samplers import LEARNED
 from morphoskel.skeleton.dpc.settings import DeepPointsSettings
 from morphoskel.skeleton.l1_medial.settings import L1MedialSettings
 
@@ -162,6 +163,10 @@ class Config(Section):
         "skeleton.k then reruns the dilation alone; false deletes them as soon as the skeleton is made"
     )
     dataset: Dataset
+    parts: Dataset | None = Field(
+        default=None,
+        description="a second data set, for part segmentation alone; without, the first one's parts are segmented",
+    )
     surface: Surface
     watertight: Watertight
     skeleton: Skeleton
@@ -173,3 +178,38 @@ class Config(Section):
     tasks: Tasks = Tasks()
     trainer: Trainer
     timing: Timing
+
+    @property
+    def segmented(self) -> Dataset | None:
+        """The data set whose parts are segmented; ``None`` if neither has parts."""
+        chosen = self.parts or self.dataset
+        return chosen if chosen.kind in ("shapenetpart", "synthetic") else None
+
+    @model_validator(mode="after")
+    def check_parts(self) -> "Config":
+        """Refuse a second data set that has no parts or the first one's name."""
+        if self.parts is not None and self.segmented is None:
+            raise ValueError(f"parts: {self.parts.name} has no parts; choose shapenetpart or synthetic_parts")
+        if self.parts is not None and self.parts.name == self.dataset.name:
+            raise ValueError(
+                f"parts: expected a name other than {self.dataset.name}, the first data set's; for its own parts write "
+                "~parts"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def check_transfer(self) -> "Config":
+        """Refuse to let learned samplers choose other numbers of labelled points than they are trained for."""
+        task = self.tasks.segmentation
+        learned = [name for name in task.strategies if name in LEARNED and name in self.samplers.names] if task else []
+        if not task or not learned or self.segmented is None:
+            return self
+        trained = {self.sampling.points // ratio for ratio in self.sampling.ratios}
+        wanted = [task.points // ratio for ratio in task.ratios]
+        if not trained.issuperset(wanted):
+            raise ValueError(
+                f"tasks.segmentation: {', '.join(learned)} would have to choose {', '.join(map(str, wanted))} points, "
+                f"but are trained to choose {', '.join(map(str, sorted(trained, reverse=True)))} (sampling.points / "
+                "sampling.ratios); change one of the two, or leave learned samplers out of tasks.segmentation.strategies"
+            )
+        return self

@@ -13,6 +13,9 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from morphoskel.datasets.axes import axes_matrix
 from morphoskel.datasets.dataset import check_root, choose_categories
 from morphoskel.datasets.manifest import Entry
 from morphoskel.errors import DatasetError, InputError
@@ -92,6 +95,8 @@ class ShapeNetPartDataset:
     allow_missing
         Leave out, with a warning in the log, shapes that a split list names but that are not on disk, and splits whose
         list is absent. By default both are errors.
+    axes
+        Which axes of the files become x, y and z, for example ``("x", "z", "-y")``.
 
     Attributes
     ----------
@@ -101,13 +106,20 @@ class ShapeNetPartDataset:
     Raises
     ------
     DatasetError
-        If a category is unknown.
+        If a category is unknown, or the axes are not three different ones.
     """
 
-    def __init__(self, root: Path | str, categories: Sequence[str] | None = None, allow_missing: bool = False) -> None:
+    def __init__(
+        self,
+        root: Path | str,
+        categories: Sequence[str] | None = None,
+        allow_missing: bool = False,
+        axes: Sequence[str] = ("x", "y", "z"),
+    ) -> None:
         self.root = Path(root)
         self.categories = choose_categories(categories, CATEGORIES.values())
         self.allow_missing = allow_missing
+        self.turn = axes_matrix(axes)
         self.part_labels = PARTS
 
     @property
@@ -146,7 +158,8 @@ class ShapeNetPartDataset:
                 f"{path}: the labels of {CATEGORIES[offset]} are {parts.start - shift} to {parts.stop - 1 - shift}, "
                 f"but the shape has {labels.min() - shift} to {labels.max() - shift}; fetch the file again"
             )
-        return PointCloud(cloud.points, cloud.normals, labels)
+        normals = None if cloud.normals is None else cloud.normals @ self.turn
+        return PointCloud(cloud.points @ self.turn, normals, labels)
 
     @cached_property
     def _entries(self) -> dict[str, list[Entry]]:
@@ -232,8 +245,6 @@ def _check_once(root: Path, listed: dict[str, list[tuple[str, str]]]) -> None:
 
 def _read_raw_labels(path: Path, parts: range, points: int) -> IntArray:
     """Return the labels beside a raw cloud in the numbering of :data:`PARTS`."""
-    import numpy as np
-
     labels_path = path.parent.parent / "points_label" / f"{path.stem}.seg"
     try:
         labels = np.array(labels_path.read_text(encoding="ascii").split(), dtype=np.int64)

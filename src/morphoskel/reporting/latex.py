@@ -1,11 +1,22 @@
-"""A result table as a LaTeX float that needs the package booktabs and nothing else."""
+"""A result table as LaTeX floats that need the package booktabs and nothing else."""
 
+import math
 import re
 from collections.abc import Sequence
 
 from morphoskel.reporting.matrix import Line, MetricMatrix
 
 ABSENT = "--"
+
+PAGE_HEIGHT = 70
+"""Lines of a table that fit on a page below the caption."""
+
+PAGE_WIDTH = 150
+"""Characters of a footnote that fit on a line."""
+
+BEGIN = (r"\begin{table*}[p]", r"\centering")
+SMALL = (r"\scriptsize", r"\setlength{\tabcolsep}{3pt}")
+END = r"\end{table*}"
 
 SPECIAL = {
     "\\": r"\textbackslash{}",
@@ -28,28 +39,35 @@ SPECIAL = {
 
 
 def render_latex(matrices: Sequence[MetricMatrix], caption: str, footnotes: Sequence[str]) -> str:
-    """Return the text of a LaTeX file: one float with the caption, one tabular a metric, and the footnotes."""
-    lines = [
-        r"% Needs \usepackage{booktabs}.",
-        r"\begin{table*}[p]",
-        r"\centering",
-        rf"\caption{{{escape(caption)}}}",
-        r"\scriptsize",
-        r"\setlength{\tabcolsep}{3pt}",
-    ]
-    for matrix in matrices:
-        lines.extend(_tabular(matrix))
+    """Return the text of a LaTeX file: a float with the caption, one tabular a matrix, and the footnotes.
+
+    What does not fit on its page goes on in another float without a caption, which LaTeX keeps in order.
+    """
+    parts = [(_tabular(matrix), _height(matrix)) for matrix in matrices]
     if footnotes:
-        lines.append(r"\begin{enumerate}")
-        lines.extend(rf"\item {escape(note)}" for note in footnotes)
-        lines.append(r"\end{enumerate}")
-    lines.append(r"\end{table*}")
+        items = [rf"\item {escape(note)}" for note in footnotes]
+        rows = sum(math.ceil(len(item) / PAGE_WIDTH) for item in items)
+        parts.append(([r"\begin{enumerate}", *items, r"\end{enumerate}"], rows))
+    lines = [r"% Needs \usepackage{booktabs}.", *BEGIN, rf"\caption{{{escape(caption)}}}", *SMALL]
+    used = 0.0
+    for part, height in parts:
+        if used > 0 and used + height > PAGE_HEIGHT:
+            lines.extend((END, "", *BEGIN, *SMALL))
+            used = 0.0
+        lines.extend(part)
+        used += height
+    lines.append(END)
     return "\n".join(lines) + "\n"
 
 
 def escape(text: str) -> str:
     """Return `text` such that LaTeX shows it as it is, on one line."""
     return " ".join("".join(SPECIAL.get(character, character) for character in text).split())
+
+
+def _height(matrix: MetricMatrix) -> float:
+    """Return the height of a metric's tabular, in lines: those it has, the rules between methods, and its heading."""
+    return 4 + sum(len(block.lines) + 0.5 for block in matrix.blocks)
 
 
 def _tabular(matrix: MetricMatrix) -> list[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -20,6 +20,9 @@ NOT_RUN = "not run"
 
 FAILED = "failed"
 """What stands for a value that could not be computed, since shapes that it needs failed."""
+
+WIDEST = 12
+"""Columns of values that fit on a page side by side."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,7 @@ class MethodBlock:
 
 @dataclass(frozen=True)
 class MetricMatrix:
-    """All values of one metric: methods as blocks of rows, groups as columns.
+    """The values of one metric: methods as blocks of rows, groups as columns.
 
     Parameters
     ----------
@@ -59,17 +62,21 @@ class MetricMatrix:
         What is shown.
     companions
         The metrics written behind the values of `metric`.
+    part
+        Which columns these are, if not all fit on a page.
     """
 
     metric: Metric
     groups: tuple[str, ...]
     blocks: tuple[MethodBlock, ...]
     companions: tuple[Metric, ...] = ()
+    part: str = ""
 
     @property
     def heading(self) -> str:
-        """Heading of the metric, then what its companions are."""
-        return ", ".join([self.metric.heading, *(companion.title for companion in self.companions if companion.title)])
+        """Heading of the metric, which part it is, then what its companions are."""
+        first = f"{self.metric.heading}: {self.part}" if self.part else self.metric.heading
+        return ", ".join([first, *(companion.title for companion in self.companions if companion.title)])
 
 
 @dataclass(frozen=True)
@@ -84,7 +91,7 @@ class _Cell:
 
 
 def metric_matrices(frame: pd.DataFrame) -> list[MetricMatrix]:
-    """Lay out a result table, one matrix a metric.
+    """Lay out a result table, one matrix a metric, or several if it has more than :data:`WIDEST` columns.
 
     Parameters
     ----------
@@ -94,22 +101,24 @@ def metric_matrices(frame: pd.DataFrame) -> list[MetricMatrix]:
     Returns
     -------
     list
-        One matrix for each metric of `frame` that is no part of another, in the order of the registry.
+        A matrix for each metric of `frame` that is no part of another, in the order of the registry. One that is too
+        wide has a matrix of its averages, then some of equally many columns for the others.
     """
     return [
-        _metric_matrix(metric, frame)
+        matrix
         for name, metric in METRICS.items()
         if not metric.part_of and (frame["metric"] == name).any()
+        for matrix in _matrices_of(metric, frame)
     ]
 
 
 def rivals(method: str) -> str:
     """Return what a row's name says of the conditions that it shares with its rivals; empty for the usual ones.
 
-    Only rows under the same conditions are compared for the best value: an equal number of balls, or another classifier
-    than that of the other rows.
+    Only rows under the same conditions are compared for the best value: an equal number of balls, an equal share of
+    labelled points, or another classifier than that of the other rows.
     """
-    found = re.search(rf", \d+ balls$|{re.escape(PLAIN_CLASSIFIER)}$", method)
+    found = re.search(rf", \d+ balls$|, ratio \d+$|{re.escape(PLAIN_CLASSIFIER)}$", method)
     return found.group() if found else ""
 
 
@@ -120,12 +129,10 @@ def cell_text(value: float, n: int, n_failed: int, metric: Metric) -> str:
     return NOT_RUN if n == 0 and n_failed == 0 else FAILED
 
 
-def _metric_matrix(metric: Metric, frame: pd.DataFrame) -> MetricMatrix:
+def _matrices_of(metric: Metric, frame: pd.DataFrame) -> Iterator[MetricMatrix]:
     """Lay out the rows of one metric, with those of its companions behind them."""
     rows = frame[frame["metric"] == metric.name]
-    companions = tuple(
-        other for other in METRICS.values() if other.part_of == metric.name and (frame["metric"] == other.name).any()
-    )
+    companions = [other for other in METRICS.values() if other.part_of == metric.name]
     behind = _texts_behind(frame, companions)
     # A method may have groups that the methods before it lack, so that appearance alone would put them behind averages,
     # and a small ratio behind a large one.
@@ -141,8 +148,25 @@ def _metric_matrix(metric: Metric, frame: pd.DataFrame) -> MetricMatrix:
         for condition in {rivals(name) for name in cells}
         for compared in [[row for name, row in cells.items() if rivals(name) == condition]]
     }
-    blocks = tuple(_method_block(method, row, groups, best[rivals(method)], metric) for method, row in cells.items())
-    return MetricMatrix(metric, groups, blocks, companions)
+    for part, shown in _parts(groups):
+        blocks = tuple(_method_block(method, row, shown, best[rivals(method)], metric) for method, row in cells.items())
+        present = set(frame.loc[frame["group"].isin(shown), "metric"])
+        yield MetricMatrix(metric, shown, blocks, tuple(other for other in companions if other.name in present), part)
+
+
+def _parts(groups: tuple[str, ...]) -> Iterator[tuple[str, tuple[str, ...]]]:
+    """Yield groups that fit on a page side by side, with a name for them if those are not all."""
+    if len(groups) <= WIDEST:
+        yield "", groups
+        return
+    averages = tuple(group for group in groups if group in AVERAGES)
+    if averages:
+        yield "averages", averages
+    others = groups[: len(groups) - len(averages)]
+    width = math.ceil(len(others) / math.ceil(len(others) / WIDEST))
+    for start in range(0, len(others), width):
+        part = others[start : start + width]
+        yield f"{part[0]} to {part[-1]}", part
 
 
 def _order_of_groups(group: str) -> tuple[bool, int]:

@@ -73,6 +73,11 @@ METRICS = {
         Metric("map_excluded", "Mean average precision, the query itself left out", "%", 1, "higher"),
         Metric("distinct_points", "Distinct points", "mean number a shape", 1, None),
         Metric("miou", "Mean intersection over union", "%", 1, "higher"),
+        Metric("miou_interval", "± half-width of the 95 % interval over shapes", "", 1, None, "miou", " ± {}"),
+        Metric("miou_difference", "Difference of mean intersections over union", "points of %", 1, None),
+        Metric("miou_difference_low", "95 % interval over shapes", "", 1, None, "miou_difference", " ({}"),
+        Metric("miou_difference_high", "", "", 1, None, "miou_difference", " to {})"),
+        Metric("labels", "Points with a label", "mean number of different ones in a training shape", 1, None),
     )
 }
 """Every metric by name, in the order in which a table shows them."""

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from morphoskel.errors import InputError
+from morphoskel.reporting.result_rows import read_result_rows
 from morphoskel.reporting.sampling_names import SAMPLING_TABLES
 from morphoskel.reporting.sampling_rows import DRAW_COLUMNS, SHAPE_COLUMNS
 from morphoskel.reporting.sampling_tables import build_sampling_table
@@ -22,11 +23,6 @@ TITLES = {
 }
 NOT_SHAPES = ("oa_difference", "oa_difference_low", "oa_difference_high", "mcnemar_p")
 """Metrics of differences between rows."""
-
-TEXT = ("sampler", "ratio", "choice", "classifier", "id", "category", "status", "reason")
-"""Columns that are read as they stand: a category may be called nan, and a ratio is a name here."""
-
-WHOLE = ("seed", "draw")
 
 
 def write_sampling_table(
@@ -64,8 +60,8 @@ def write_sampling_table(
         raise InputError(f"no such table {name!r}; legal are {', '.join(SAMPLING_TABLES)}")
     table = build_sampling_table(
         name,
-        _read(shape_rows, SHAPE_COLUMNS),
-        _read(draw_rows, DRAW_COLUMNS),
+        read_result_rows(shape_rows, SHAPE_COLUMNS),
+        read_result_rows(draw_rows, DRAW_COLUMNS),
         published_folder,
         dataset=provenance["dataset"],
         protocol=provenance["protocol"],
@@ -82,27 +78,3 @@ def _counted(frame: pd.DataFrame, seed: int) -> pd.DataFrame:
     """Return what a caption counts: samplers, however they choose and are judged, with the seed of the run."""
     rows = frame[~frame["metric"].isin(NOT_SHAPES)]
     return rows.assign(method=rows["method"].str.split(", ").str[0], seeds=seed)
-
-
-def _read(paths: Sequence[Path], columns: tuple[str, ...]) -> pd.DataFrame:
-    """Read CSV files of the same columns one below the other; without files there are no rows."""
-    import pandas as pd
-
-    types: dict[str, Any] = {name: str if name in TEXT else int if name in WHOLE else float for name in columns}
-    frames = [pd.DataFrame({name: pd.Series(dtype=kind) for name, kind in types.items()})]
-    empty = {name: ["", "nan"] for name, kind in types.items() if kind is float}
-    for path in paths:
-        if not path.is_file():
-            raise InputError(
-                f"{path}: no such file; expected results of a sampler with the columns {', '.join(columns)}"
-            )
-        present = pd.read_csv(path, nrows=0).columns
-        missing = [name for name in columns if name not in present]
-        if missing:
-            raise InputError(f"{path}: the columns {', '.join(missing)} are missing; expected {', '.join(columns)}")
-        try:
-            frame = pd.read_csv(path, usecols=list(columns), dtype=types, keep_default_na=False, na_values=empty)
-        except ValueError as error:
-            raise InputError(f"{path}: a value is not a number: {error}") from error
-        frames.append(frame[list(columns)])
-    return pd.concat(frames[1:] or frames, ignore_index=True)

@@ -58,6 +58,27 @@ def mean_over_shapes(rows: pd.DataFrame, column: str, unit: float = PERCENT) -> 
     )
 
 
+def mean_over_categories(rows: pd.DataFrame, column: str) -> Average:
+    """Average the results of one row and one ratio in %, every category weighing the same.
+
+    Parameters
+    ----------
+    rows, column
+        As for :func:`mean_over_shapes`.
+
+    Returns
+    -------
+    Average
+        `std` is over trainings likewise. The value is NaN if every shape of some category failed: without it, the
+        average would be one over other categories.
+    """
+    table = by_training(rows, column).dropna()
+    of_categories = table.groupby(level="category").mean().reindex(sorted(set(rows["category"])))
+    of_trainings = [PERCENT * _mean(list(of_categories[seed])) for seed in of_categories.columns]
+    overall = mean_over_shapes(rows, column)
+    return Average(_mean(of_trainings), _deviation(of_trainings), overall.n, overall.n_failed)
+
+
 def deviation_over_draws(draws: pd.DataFrame, column: str) -> float:
     """Return the standard deviation over draws (divisor n - 1) in %, pooled over trainings; NaN without two draws."""
     variances = [_deviation(list(of_seed[column])) ** 2 for _, of_seed in draws.groupby("seed")]
@@ -81,7 +102,9 @@ def interval_half_width(rows: pd.DataFrame, column: str, *names: str) -> float:
     return PERCENT * (interval.high - interval.low) / 2
 
 
-def subtract(first: pd.DataFrame, second: pd.DataFrame, column: str, *names: str) -> dict[str, Average]:
+def subtract(
+    first: pd.DataFrame, second: pd.DataFrame, column: str, *names: str, metric: str = "oa"
+) -> dict[str, Average]:
     """Subtract the mean of one row from that of another over the shapes that have a value in both.
 
     Parameters
@@ -92,22 +115,23 @@ def subtract(first: pd.DataFrame, second: pd.DataFrame, column: str, *names: str
         What to subtract.
     names
         As for :func:`interval_half_width`.
+    metric
+        The metric of the two rows.
 
     Returns
     -------
     dict
         The difference (first minus second) in points of %, and the ends of its 95 % interval from a paired bootstrap
-        over shapes, by the names ``oa_difference``, ``oa_difference_low`` and ``oa_difference_high``.
+        over shapes, by the names ``{metric}_difference``, ``{metric}_difference_low`` and ``{metric}_difference_high``.
     """
     left, right, n_failed = _pairs(first, second, column)
     numbers = Interval(math.nan, math.nan, math.nan)
     if len(left):
         generator = derive_generator(0, "paired difference", *names)
         numbers = paired_difference(np.asarray(left, np.float64), np.asarray(right, np.float64), generator)
-    metrics = ("oa_difference", "oa_difference_low", "oa_difference_high")
     return {
-        metric: Average(PERCENT * number, math.nan, len(left), n_failed)
-        for metric, number in zip(metrics, numbers, strict=True)
+        f"{metric}_difference{end}": Average(PERCENT * number, math.nan, len(left), n_failed)
+        for end, number in zip(("", "_low", "_high"), numbers, strict=True)
     }
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from morphoskel.atomic import atomic_folder
 from morphoskel.errors import InputError
@@ -15,6 +15,10 @@ from morphoskel.sampling.lfs import LfsSettings
 from morphoskel.sampling.prior import PriorSettings
 from morphoskel.sampling.samplers import GENERATORS, LEARNED
 from morphoskel.sampling.trained import load_trained
+
+if TYPE_CHECKING:
+    from morphoskel.networks.point_generator import PointGenerator
+    from morphoskel.networks.skeleton_sampler import SkeletonSampler
 
 logger = logging.getLogger(__name__)
 
@@ -46,7 +50,8 @@ def choose_for_split(
     folder
         To make; appears only when complete. See :func:`read_choices`.
     networks
-        Files ``.../{ratio}/{number}/network.pt``; none for a sampler without training.
+        Files ``.../{number}/network.pt``; none for a sampler without training. They may be trained on clouds of
+        another size: each chooses as many points as it was trained to.
     priors
         File of local feature sizes, for the samplers that need them.
     ratios
@@ -72,14 +77,14 @@ def choose_for_split(
     sizes = read_prior_set(priors, shapes) if priors else None
     guided = sampler in LEARNED and sampler not in GENERATORS
     weights = sampler_weights(sampler, shapes, sizes, PriorSettings(**prior), seed) if guided else None
-    trained = {_ratio_and_number(path): path for path in networks}
+    samples = {ratio: shapes.points.shape[1] // ratio for ratio in ratios}
     with atomic_folder(folder) as partial:
-        for ratio, number in trained or [(ratio, 0) for ratio in ratios]:
-            request = Request(sampler, shapes.points.shape[1] // ratio, draws, seed, number)
+        for ratio, number, network in _trainings(sampler, networks, samples):
+            request = Request(sampler, samples[ratio], draws, seed, number)
             chosen = choose_points(
                 request,
                 shapes,
-                network=load_trained(sampler, trained[ratio, number]) if trained else None,
+                network=network,
                 weights=weights,
                 sizes=sizes.distances if sizes else None,
                 lfs=LfsSettings(**lfs) if lfs else None,
@@ -111,8 +116,23 @@ def read_choices(folder: Path) -> dict[Key, Choice]:
     return dict(sorted(found.items()))
 
 
-def _ratio_and_number(network: Path) -> tuple[int, int]:
+def _trainings(
+    sampler: str, networks: Sequence[Path], samples: Mapping[int, int]
+) -> Iterator[tuple[int, int, PointGenerator | SkeletonSampler | None]]:
+    """Yield ratio, number and network of each training; for a sampler without, every ratio once."""
+    if not networks:
+        yield from ((ratio, 0, None) for ratio in samples)
+    for path in networks:
+        network = load_trained(sampler, path)
+        fitting = [ratio for ratio, wanted in samples.items() if wanted == network.samples]
+        if not fitting:
+            wanted = " or ".join(map(str, samples.values()))
+            raise InputError(f"{path}: chooses {network.samples} points; expected a network trained to choose {wanted}")
+        yield fitting[0], _number(path), network
+
+
+def _number(network: Path) -> int:
     try:
-        return int(network.parent.parent.name), int(network.parent.name)
+        return int(network.parent.name)
     except ValueError as error:
-        raise InputError(f"{network}: expected its folders to be named by ratio and number of the training") from error
+        raise InputError(f"{network}: expected its folder to be named by the number of the training") from error

@@ -1,0 +1,85 @@
+# Part segmentation from the labels of chosen points.
+
+
+if strategies():
+
+    use rule choose_points as choose_labelled_points with:
+        input:
+            clouds=PART_CLOUDS,
+            priors=labelling_priors,
+            networks=transferred_samplers,
+        output:
+            directory(LABELLED_POINTS),
+        log:
+            "<logs>/choose_labelled_points/{dataset}/{split}/{sampler}.log",
+        benchmark:
+            "<benchmarks>/choose_labelled_points/{dataset}/{split}/{sampler}.tsv"
+        params:
+            ratios=section("tasks", "segmentation", "ratios"),
+            draws=CONFIG.tasks.segmentation.seeds * CONFIG.tasks.segmentation.label_sets,
+            prior=section("sampling", "prior"),
+            lfs=section("samplers", "lfs"),
+            seed=CONFIG.seed,
+            digest=code_digest("sampling.choose_for_split"),
+
+    rule train_segmentation:
+        input:
+            clouds=part_clouds(part_splits()[0]),
+            samples=training_labels,
+            validation_clouds=part_clouds(part_splits()[1] or []),
+            validation_samples=validation_labels,
+        output:
+            TRAINED_SEGMENTER,
+        log:
+            "<logs>/train_segmentation/{dataset}/{strategy}/{ratio}/{seed}.log",
+        benchmark:
+            "<benchmarks>/train_segmentation/{dataset}/{strategy}/{ratio}/{seed}.tsv"
+        conda:
+            "../../environment.yml"
+        threads: CONFIG.trainer.threads
+        resources:
+            **TRAINING_DEVICES,
+            mem_mb=8000,
+            runtime=2880,
+        params:
+            settings=section("tasks", "segmentation", "network"),
+            learning={
+                name: section("tasks", "segmentation", name)
+                for name in (
+                    "validation_share",
+                    "validation_labels",
+                    "completed",
+                    "label_sets",
+                )
+            },
+            seed=CONFIG.seed,
+            trainer=section("trainer"),
+            checkpoints=f"{RESULTS}/checkpoints/{{dataset}}/segmentation/{{strategy}}/{{ratio}}/{{seed}}",
+            digest=code_digest("learning.segmentation_training"),
+        script:
+            "../scripts/train_segmentation.py"
+
+    rule evaluate_segmentation:
+        input:
+            clouds=PART_CLOUDS,
+            networks=trained_segmenters,
+            training_clouds=part_clouds(part_splits()[0]),
+            samples=training_labels,
+        output:
+            SEGMENTED,
+        log:
+            "<logs>/evaluate_segmentation/{dataset}/{split}/{strategy}.log",
+        benchmark:
+            "<benchmarks>/evaluate_segmentation/{dataset}/{split}/{strategy}.tsv"
+        conda:
+            "../../environment.yml"
+        threads: CONFIG.trainer.threads
+        resources:
+            mem_mb=6000,
+            runtime=240,
+        params:
+            completed=CONFIG.tasks.segmentation.completed,
+            label_sets=CONFIG.tasks.segmentation.label_sets,
+            digest=code_digest("evaluation.segmentation"),
+        script:
+            "../scripts/evaluate_segmentation.py"
