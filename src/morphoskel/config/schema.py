@@ -210,6 +210,7 @@ class Config(Section):
             raise ValueError(
                 f"tasks.segmentation: {', '.join(learned)} would have to choose {', '.join(map(str, wanted))} points, "
                 f"but are trained to choose {', '.join(map(str, sorted(trained, reverse=True)))} (sampling.points / "
-                "sampling.ratios); change one of the two, or leave learned samplers out of tasks.segmentation.strategies"
+                "sampling.ratios); change one of the two, leave learned samplers out of "
+                "tasks.segmentation.strategies, or part segmentation out of it all: task=[classification]"
             )
         return self
