@@ -91,6 +91,12 @@ def test_decimals_of_the_metric():
     ]
 
 
+@pytest.mark.parametrize(("value", "text"), [(0.0, "0.0000"), (1e-9, "< 0.0001"), (4e-5, "< 0.0001"), (6e-5, "0.0001")])
+def test_a_probability_above_0_is_never_shown_as_0(value, text):
+    assert cell_text(value, 5, 0, find_metric("mcnemar_p")) == text
+    assert cell_text(1e-9, 5, 0, find_metric("cd_recon")) == "0.0000"
+
+
 def test_only_rows_with_equally_many_balls_are_rivals():
     rows = [("A", 0.3), ("B", 0.2), ("A, 100 balls", 0.5), ("B, 100 balls", 0.4), ("B, 1024 balls", 0.1)]
     (matrix,) = metric_matrices(frame_of(*((name, "Mug", "cd_recon", value, math.nan, 1, 0) for name, value in rows)))

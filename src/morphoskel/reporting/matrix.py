@@ -124,6 +124,8 @@ def rivals(method: str) -> str:
 
 def cell_text(value: float, n: int, n_failed: int, metric: Metric) -> str:
     """Return a computed value as readers see it, or why there is none."""
+    if metric.never_zero and 0 < value < 0.5 * 10**-metric.decimals:
+        return f"< {10**-metric.decimals:.{metric.decimals}f}"
     if not math.isnan(value):
         return _signless_zero(f"{value:.{metric.decimals}f}")
     return NOT_RUN if n == 0 and n_failed == 0 else FAILED

@@ -26,6 +26,8 @@ class Metric:
         Name of the metric in whose cells readers see this one; empty if it has a table of its own.
     form
         How it is written there, behind the other value, with ``{}`` for the number.
+    never_zero
+        Whether a positive value that rounds to 0 is shown as less than the last decimal, since 0 would be wrong.
     """
 
     name: str
@@ -35,6 +37,7 @@ class Metric:
     better: Literal["lower", "higher"] | None
     part_of: str = ""
     form: str = "{}"
+    never_zero: bool = False
 
     @property
     def heading(self) -> str:
@@ -65,7 +68,7 @@ METRICS = {
         Metric("oa_difference", "Difference of overall accuracies", "points of %", 1, None),
         Metric("oa_difference_low", "95 % interval over shapes", "", 1, None, "oa_difference", " ({}"),
         Metric("oa_difference_high", "", "", 1, None, "oa_difference", " to {})"),
-        Metric("mcnemar_p", "P-value of McNemar's exact test, equal accuracies", "", 4, None),
+        Metric("mcnemar_p", "P-value of McNemar's exact test, equal accuracies", "", 4, None, never_zero=True),
         Metric("oa_draws", "Overall accuracy, standard deviation over draws", "points of %", 2, None),
         Metric("map_all_points", "Mean average precision of all points, without sampling", "%", 1, None),
         Metric("map", "Mean average precision", "%", 1, "higher"),
