@@ -7,7 +7,7 @@ import torch
 from tiny_parts import TINY, every, labelled, tiny_parts, tiny_segmentation
 from torch.nn import functional
 
-from morphoskel.learning.segmentation_phase import SegmentationPhase, only_labelled
+from morphoskel.learning.segmentation_phase import SegmentationPhase, only_labelled, thinned
 from morphoskel.networks.part_segmentation import predict_parts
 from morphoskel.networks.pointnet_classifier import transform_penalty
 
@@ -114,6 +114,40 @@ def test_all_points_enter_the_network_or_the_labelled_ones_alone():
     assert torch.equal(seen_by(phase, phase.loss, SPARSE), SPARSE.points[:, :34:5])
     phase = a_phase()
     assert torch.equal(seen_by(phase, phase.loss, SPARSE), SPARSE.points)  # neither turned, scaled nor moved
+
+
+@torch.no_grad()
+@pytest.mark.parametrize(("count", "expected"), [(3, (3, 1, 2)), (5, (3, 1, 2)), (2, (2, 1, 2)), (6, (3, 1, 2))])
+def test_thinned_clouds_keep_their_labelled_points_first(count, expected):
+    targets = torch.tensor([[-1, 3, -1, 4, -1, 1], [-1, -1, 2, -1, -1, -1], [0, -1, -1, -1, -1, 2]])
+    points = torch.arange(18.0).view(3, 6, 1).expand(-1, -1, 3)
+    taken, of_taken = thinned(points, targets, count)
+    places = taken[..., 0].long()
+    assert taken.shape == (3, count, 3)
+    assert torch.equal(of_taken, targets.flatten()[places])  # each point keeps its label
+    assert tuple((of_taken >= 0).sum(dim=1).tolist()) == expected
+    assert all(len(set(row)) == count for row in places.tolist())
+    assert torch.equal(places // 6, torch.arange(3)[:, None].expand(-1, count))  # of its own cloud
+
+
+@torch.no_grad()
+def test_thinning_takes_every_other_point_equally_often():
+    targets = torch.tensor([[-1, 3, -1, -1, -1, -1]]).expand(6000, -1)
+    points = torch.arange(6.0).view(1, 6, 1).expand(6000, -1, 3)
+    taken, _ = thinned(points, targets, 3)
+    counts = torch.bincount(taken[..., 0].flatten().long(), minlength=6)
+    assert counts[1] == 6000
+    others = counts[[0, 2, 3, 4, 5]].double()
+    assert (others - 2400).abs().max() < 5 * (6000 * 0.4 * 0.6) ** 0.5
+
+
+@torch.no_grad()
+def test_thinned_clouds_enter_the_network_in_training_and_validation():
+    phase = a_phase(training_points=9)
+    for method in (phase.loss, phase.validation_loss):
+        assert seen_by(phase, method, SPARSE).shape == (4, 9, 3)
+    phase = a_phase(training_points=1000)
+    assert torch.equal(seen_by(phase, phase.loss, SPARSE), SPARSE.points)
 
 
 def test_clouds_with_fewer_labelled_points_repeat_theirs():

@@ -30,6 +30,7 @@ from morphoskel.networks.segmentation_settings import SegmentationSettings
         ("lowest_learning_rate", -1e-5),
         ("lowest_learning_rate", 0.1),
         ("training_input", "some"),
+        ("training_points", 0),
     ],
 )
 def test_bad_values_are_refused_by_name(name, value):

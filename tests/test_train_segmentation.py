@@ -70,13 +70,13 @@ def test_the_network_of_the_best_epoch_gives_its_number_again(trained):
     assert np.array_equal(predict_parts(network, HELD_OUT.points, HELD_OUT.labels, batch=2), expected.numpy())
 
 
-@pytest.mark.parametrize("training_input", ["all", "labelled"])
+@pytest.mark.parametrize("inputs", [{}, {"training_input": "labelled"}, {"training_points": 9}])
 @pytest.mark.parametrize("killed_after", [(0, 1), (1, 0), (1, 1)])
-def test_a_killed_training_goes_on_to_the_same_result(tmp_path, monkeypatch, killed_after, training_input):
+def test_a_killed_training_goes_on_to_the_same_result(tmp_path, monkeypatch, killed_after, inputs):
     class KilledError(Exception):
         pass
 
-    settings = replace(TINY, training_input=training_input)
+    settings = replace(TINY, **inputs)
     whole = train(tmp_path / "whole", settings=settings)
     original = fitting.BatchedPhase.training_step
 

@@ -28,6 +28,7 @@ TINY = SegmentationSettings(
     know_category=True,
     restrict_to_category=True,
     training_input="all",
+    training_points=None,
 )
 
 NAMES = ("ball", "stick")

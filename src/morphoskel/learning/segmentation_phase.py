@@ -66,6 +66,7 @@ class SegmentationPhase(BatchedPhase):
         points, categories, parts, labelled = batch
         settings = self.network.settings
         targets = _targets(parts, labelled[:, self.current_epoch % labelled.shape[1]])
+        points, targets = thinned(points, targets, settings.training_points)
         if settings.training_input == "labelled":
             points, targets = only_labelled(points, targets)
         segmented = self.network(points, categories)
@@ -75,11 +76,11 @@ class SegmentationPhase(BatchedPhase):
     def validation_loss(self, batch: tuple[Tensor, ...]) -> Tensor:
         """Return the mean over the clouds of the mean cross entropy at their labelled points.
 
-        All points enter the network. A mean over the points of all clouds would depend on the batches where clouds have
-        different numbers of labelled points.
+        As many points enter the network as in training. A mean over the points of all clouds would depend on the
+        batches where clouds have different numbers of labelled points.
         """
         points, categories, parts, labelled = batch
-        targets = _targets(parts, labelled[:, 0])
+        points, targets = thinned(points, _targets(parts, labelled[:, 0]), self.network.settings.training_points)
         logits = self.network(points, categories).logits
         entropies = functional.cross_entropy(
             logits.flatten(0, 1), targets.flatten(), ignore_index=NOT_COUNTED, reduction="none"
@@ -101,6 +102,30 @@ class SegmentationPhase(BatchedPhase):
 def _targets(parts: Tensor, labelled: Tensor) -> Tensor:
     """Return ``(B, N)`` int64, the parts of the labelled points and :data:`NOT_COUNTED` of the others."""
     return torch.where(labelled, parts, NOT_COUNTED)
+
+
+def thinned(points: Tensor, targets: Tensor, count: int | None) -> tuple[Tensor, Tensor]:
+    """Take random points of each cloud, those with labels before others. Draws from torch's global generator.
+
+    Parameters
+    ----------
+    points
+        ``(B, N, 3)`` float.
+    targets
+        ``(B, N)`` int64, :data:`NOT_COUNTED` for a point without label.
+    count
+        Points to take of each cloud, at least 1; ``None``, or N and more, takes all as they are.
+
+    Returns
+    -------
+    tuple of Tensor
+        Points ``(B, count, 3)`` and targets ``(B, count)``, in random order.
+    """
+    if count is None or count >= points.shape[1]:
+        return points, targets
+    order = torch.rand(targets.shape, device=points.device) + (targets != NOT_COUNTED)
+    rows = torch.topk(order, count, dim=1).indices
+    return gather_rows(points, rows), targets.gather(1, rows)
 
 
 def only_labelled(points: Tensor, targets: Tensor) -> tuple[Tensor, Tensor]:

@@ -56,6 +56,10 @@ class SegmentationSettings:
     training_input
         all: all points of a training cloud enter the network, and the loss counts those with labels; labelled: only
         the points with labels enter.
+    training_points
+        Points of a cloud that enter a step of the training, those with labels before others, drawn anew in every step;
+        at least 1. ``None``, as published: all. Everything but the maximum over the points works at each of them alone,
+        so that a step costs in proportion; more clouds a step then teach more in the same time.
 
     Raises
     ------
@@ -87,6 +91,7 @@ class SegmentationSettings:
     know_category: bool
     restrict_to_category: bool
     training_input: Literal["all", "labelled"]
+    training_points: int | None
 
     def __post_init__(self) -> None:
         for name in LAYERS:
@@ -95,6 +100,8 @@ class SegmentationSettings:
         for name, least in (("cloud_features", 1), ("batch_size", 2), ("epochs", 1), ("decay_epochs", 1)):
             if getattr(self, name) < least:
                 raise ConfigError(f"{name}: expected at least {least}, got {getattr(self, name)}")
+        if self.training_points is not None and self.training_points < 1:
+            raise ConfigError(f"training_points: expected null or at least 1, got {self.training_points}")
         if self.training_input not in ("all", "labelled"):
             raise ConfigError(f"training_input: expected all or labelled, got {self.training_input!r}")
         self._check_rates()

@@ -22,7 +22,7 @@ def describe_decisions(
     """
     network = task["network"]
     return [
-        _inputs(network["training_input"]),
+        _inputs(network["training_input"], network["training_points"]),
         f"Tested on {task['points']} points of each cloud, drawn without replacement; clouds with fewer repeat theirs, "
         "and the repetitions do not count.",
         _transfer(axes),
@@ -39,10 +39,16 @@ def describe_decisions(
     ]
 
 
-def _inputs(training_input: str) -> str:
-    if training_input == "all":
-        return "In training the whole cloud enters the network, and the loss counts the labelled points alone."
-    return "In training the labelled points alone enter the network."
+def _inputs(training_input: str, training_points: int | None) -> str:
+    if training_input == "labelled":
+        most = "" if training_points is None else f", at most {training_points} a step,"
+        return f"In training the labelled points alone{most} enter the network."
+    cloud = (
+        "the whole cloud enters"
+        if training_points is None
+        else f"{training_points} points of a cloud, the labelled ones and others drawn anew in every step, enter"
+    )
+    return f"In training {cloud} the network, and the loss counts the labelled points alone."
 
 
 def _transfer(axes: Sequence[str] | None) -> str:
