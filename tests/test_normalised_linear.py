@@ -3,7 +3,7 @@ import torch
 from torch import nn
 
 from morphoskel.networks import normalised_linear
-from morphoskel.networks.normalised_linear import Moments, NormalisedLinear, PooledLinear, strongest_points
+from morphoskel.networks.normalised_linear import Moments, NormalisedLinear, PooledLinear, pooled, strongest_points
 
 
 def layers_in_turn(layer):
@@ -82,6 +82,25 @@ def test_the_strongest_points_are_those_of_arg_max(monkeypatch):
         for chunk in (1, 2 * 6 * points, 1 << 20):
             monkeypatch.setattr(normalised_linear, "CHUNK", chunk)
             assert torch.equal(strongest_points(values, weight), expected)
+
+
+@pytest.mark.parametrize("points", [1, 7, 8, 33, 100])
+def test_pooled_features_are_the_maximum_and_have_its_gradient(points):
+    values = torch.randn(4, points, 5, dtype=torch.float64, generator=torch.Generator().manual_seed(1))
+    direction = torch.randn(4, 5, dtype=torch.float64)
+    assert torch.equal(pooled(values), values.amax(dim=1))
+    values.requires_grad_()
+    assert torch.equal(pooled(values), values.amax(dim=1))
+    (ours,) = torch.autograd.grad(pooled(values), values, direction)
+    (theirs,) = torch.autograd.grad(values.amax(dim=1), values, direction)
+    assert torch.equal(ours, theirs)
+
+
+def test_one_of_equally_strong_points_has_the_whole_gradient():
+    values = torch.tensor([[[1.0], [3.0], [3.0], [2.0]]], requires_grad=True)
+    (gradient,) = torch.autograd.grad(pooled(values).sum(), values)
+    assert sorted(gradient.flatten().tolist()) == [0, 0, 0, 1]
+    assert gradient[0, 1:3].sum() == 1
 
 
 def test_the_gradient_of_the_moments_is_that_of_finite_differences():

@@ -45,3 +45,10 @@ def test_settings_survive_as_a_mapping_and_make_a_configuration_section():
     configured = section(**TINY.as_mapping()).model_dump(mode="json")  # with lists, as a file has them
     assert SegmentationSettings(**{name: as_tuples(value) for name, value in configured.items()}) == TINY
     assert all(field.description for field in section.model_fields.values())
+
+
+def test_a_lengthened_training_decays_as_many_times():
+    longer = TINY.lengthened(3)
+    assert longer.epochs == 3 * TINY.epochs
+    assert longer.epochs / longer.decay_epochs == TINY.epochs / TINY.decay_epochs
+    assert replace(longer, epochs=TINY.epochs, decay_epochs=TINY.decay_epochs) == TINY

@@ -61,6 +61,7 @@ def train(folder, result, sampler="fps", ratio=5, number=0, clouds=("clouds",), 
         "validation_labels": "labelled",
         "completed": False,
         "label_sets": 1,
+        "full_supervision": 1,
         "seed": 3,
         **others,
     }
@@ -119,6 +120,17 @@ def test_every_training_of_a_random_sampler_has_draws_of_its_own(files, tmp_path
     assert same_weights(found, train_on_arrays(tmp_path, *data, sampler="random", number=1))
     with pytest.raises(InputError, match=r"random/clouds: expected at least 6 draws at ratio 5"):
         train(files, "none", "random", number=2, label_sets=2)
+
+
+def epochs(path):
+    settings = load_segmentation(path).settings
+    return settings.epochs, settings.decay_epochs
+
+
+def test_the_training_with_all_labels_alone_can_last_longer(files):
+    usual = TINY.epochs, TINY.decay_epochs
+    assert epochs(train(files, "full", sampler=None, full_supervision=3)) == tuple(3 * number for number in usual)
+    assert epochs(train(files, "few", "random", full_supervision=3)) == usual
 
 
 def test_several_files_are_one_training_set(files, tmp_path):

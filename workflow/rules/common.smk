@@ -82,6 +82,27 @@ def reconstruction(wildcards):
     return section("surface", wildcards.surface)
 
 
+def of_part_skeletons(wildcards, key):
+    """Return one of the second data set's own settings of skeletons; None for the first one, or where it has none."""
+    if wildcards.dataset == CONFIG.dataset.name:
+        return None
+    return section("tasks", "segmentation", "skeletons")[key]
+
+
+def candidates(wildcards):
+    """Return how to scatter candidates in shapes of the data set that the wildcard names."""
+    usual = section("skeleton", "candidates")
+    count = of_part_skeletons(wildcards, "candidates")
+    return usual if count is None else {**usual, "count": count}
+
+
+def watertight(wildcards):
+    """Return how to close surfaces of shapes of the data set that the wildcard names."""
+    usual = section("watertight")
+    resolution = of_part_skeletons(wildcards, "resolution")
+    return usual if resolution is None else {**usual, "resolution": resolution}
+
+
 def intermediate(folder):
     """Mark a folder that only later stages read; kept or not, as the configuration says."""
     return directory(folder) if CONFIG.keep_intermediates else temp(directory(folder))

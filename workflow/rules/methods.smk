@@ -23,7 +23,7 @@ rule coverage_axis:
     params:
         dataset=dataset_section,
         dataset_seed=CONFIG.seed,
-        candidates=section("skeleton", "candidates"),
+        candidates=candidates,
         coverage_axis=section("methods", "coverage_axis"),
         seed=CONFIG.seed,
         digest=code_digest("chain.shard", "chain.coverage_axis"),

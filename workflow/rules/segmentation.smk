@@ -50,6 +50,7 @@ if strategies():
                     "validation_labels",
                     "completed",
                     "label_sets",
+                    "full_supervision",
                 )
             },
             seed=CONFIG.seed,

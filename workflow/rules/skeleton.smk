@@ -46,7 +46,7 @@ rule watertight:
         runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
-        watertight=section("watertight"),
+        watertight=watertight,
         seed=CONFIG.seed,
         digest=code_digest("chain.shard", "chain.watertight"),
     script:
@@ -71,7 +71,7 @@ rule occupancy:
         runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
-        candidates=section("skeleton", "candidates"),
+        candidates=candidates,
         seed=CONFIG.seed,
         digest=code_digest("chain.shard", "chain.occupancy"),
     script:
@@ -97,7 +97,7 @@ rule udf:
         runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
-        candidates=section("skeleton", "candidates"),
+        candidates=candidates,
         seed=CONFIG.seed,
         digest=code_digest("chain.shard", "chain.udf"),
     script:
@@ -123,7 +123,7 @@ rule dilation:
         runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
-        candidates=section("skeleton", "candidates"),
+        candidates=candidates,
         k=CONFIG.skeleton.k,
         seed=CONFIG.seed,
         digest=code_digest("chain.shard", "chain.dilation"),
@@ -151,7 +151,7 @@ rule select_skeleton:
         runtime=MINUTES,
         shape_threads=CONFIG.threads,
     params:
-        candidates=section("skeleton", "candidates"),
+        candidates=candidates,
         points=CONFIG.skeleton.points,
         seed=CONFIG.seed,
         digest=code_digest("chain.shard", "chain.select_skeleton"),
@@ -183,7 +183,7 @@ rule cover_skeleton:
     params:
         dataset=dataset_section,
         dataset_seed=CONFIG.seed,
-        candidates=section("skeleton", "candidates"),
+        candidates=candidates,
         k=CONFIG.skeleton.k,
         points=CONFIG.skeleton.points,
         coverage=section("skeleton", "coverage"),

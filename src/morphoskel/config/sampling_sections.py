@@ -94,6 +94,17 @@ class Classification(Section):
     teachers: PositiveInt = Field(description="further task networks that train Meta-Sampler; the first one tests it")
 
 
+class PartSkeletons(Section):
+    """What differs for the skeletons of a second data set's shapes."""
+
+    candidates: Annotated[int, Field(ge=100)] | None = Field(
+        description="candidates of a shape; null: as skeleton.candidates.count says"
+    )
+    resolution: Annotated[int, Field(ge=100)] | None = Field(
+        description="leaves of the octree of the closed surface; null: as watertight.resolution says"
+    )
+
+
 class Segmentation(Section):
     """Part segmentation from few labels."""
 
@@ -121,6 +132,12 @@ class Segmentation(Section):
     completed: bool = Field(
         description="whether farthest points take the place of points that a sampler chose twice; only so has every "
         "shape as many labels as the ratio says"
+    )
+    full_supervision: PositiveInt = Field(
+        description="how many times as many epochs, and epochs between decays, the training with all labels has"
+    )
+    skeletons: PartSkeletons = Field(
+        description="of the shapes of a second data set, which the strategy lfs alone needs"
     )
     network: Segmenter = Field(description="the network and its training")
 

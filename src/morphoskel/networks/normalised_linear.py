@@ -137,6 +137,25 @@ def pooled_linear(values: Tensor, weight: Tensor, bias: Tensor) -> Tensor:
     return (strongest * weight).sum(dim=-1) + bias
 
 
+def pooled(values: Tensor) -> Tensor:
+    """Return the maximum over the points of their features.
+
+    Parameters
+    ----------
+    values
+        ``(B, N, C)`` float.
+
+    Returns
+    -------
+    Tensor
+        ``(B, C)``. Its gradient reaches the first of the strongest points of each feature; that of ``amax`` would pass
+        over all points several times to find those that are equally strong.
+    """
+    if not values.requires_grad:
+        return values.amax(dim=1)
+    return values.gather(1, _largest_rows(values.detach())[:, None]).squeeze(1)
+
+
 @torch.no_grad()
 def strongest_points(values: Tensor, weight: Tensor) -> Tensor:
     """Return ``(B, O)`` int64: for each row of the weight the point of largest response.

@@ -20,7 +20,7 @@ from torch.nn import functional
 
 from morphoskel.errors import ConfigError
 from morphoskel.networks.network_file import read_network, write_network
-from morphoskel.networks.normalised_linear import NormalisedLinear
+from morphoskel.networks.normalised_linear import NormalisedLinear, pooled
 from morphoskel.networks.pointnet import TransformNetwork
 from morphoskel.networks.segmentation_settings import SegmentationSettings
 
@@ -160,7 +160,7 @@ class PartSegmentationNetwork(nn.Module):
         for layer in self.after:
             values = functional.relu(layer(values), inplace=True)
             local.append(values)
-        cloud = values.amax(dim=1)
+        cloud = pooled(values)
         if self.settings.know_category:
             known = functional.one_hot(categories, len(self.class_names)).to(cloud.dtype)
             cloud = torch.cat([cloud, known], dim=1)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
 from morphoskel.errors import ConfigError
@@ -121,6 +121,10 @@ class SegmentationSettings:
                 f"lowest_learning_rate: expected at least 0 and at most the first one, {self.learning_rate}, got "
                 f"{self.lowest_learning_rate}"
             )
+
+    def lengthened(self, times: int) -> SegmentationSettings:
+        """Return the same settings with as many times the epochs, and the epochs between decays."""
+        return replace(self, epochs=times * self.epochs, decay_epochs=times * self.decay_epochs)
 
     def as_mapping(self) -> dict[str, Any]:
         """Return the settings as plain numbers, words and tuples by name."""

@@ -35,6 +35,7 @@ def describe_decisions(
         if network["know_category"]
         else "The network is not told the category of a shape.",
         _epoch(task, *splits),
+        *_longer(task["full_supervision"]),
         "Farthest points start with the first point of the cloud.",
     ]
 
@@ -81,3 +82,7 @@ def _epoch(task: Mapping[str, Any], training: Sequence[str], validation: str | N
     )
     points = "the labelled points" if task["validation_labels"] == "labelled" else "all points"
     return f"Trained on {' and '.join(training)}; the epoch is that of the smallest loss on {points} of {shapes}."
+
+
+def _longer(times: int) -> list[str]:
+    return [] if times == 1 else [f"Trained for {times} times as many epochs as the others: the row with all labels."]
