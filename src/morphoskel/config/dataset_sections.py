@@ -55,8 +55,8 @@ class ShapeNetPartDataset(Section):
     categories: tuple[str, ...] | None = Field(description="categories to use; null: all")
     allow_missing: bool = Field(description="leave out, and count, listed shapes that the folder lacks")
     axes: tuple[Axis, Axis, Axis] = Field(
-        description="which axes of the files become x, y and z, turned round by a minus; so that shapes stand like those "
-        "that samplers were trained on"
+        description="which axes of the files become x, y and z, turned round by a minus; so that shapes stand like "
+        "those that samplers were trained on"
     )
     counts: dict[str, PositiveInt] = Field(description="published number of shapes of each split, for planning")
     url: str | None = Field(description="address of the public archive, or null")
