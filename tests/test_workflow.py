@@ -19,7 +19,7 @@ pytestmark = [pytest.mark.workflow, pytest.mark.timeout(1800)]  # the first test
 EXPERIMENTS = sorted(path.stem for path in (REPOSITORY / "config" / "experiment").glob("*.yaml"))
 TABLES = ["skeleton_reconstruction", "surface_reconstruction", "processing_time"]
 SAMPLING_TABLES = ["object_classification", "point_cloud_retrieval", "skeleton_prior"]
-EVERY_TABLE = [f"table_{name}" for name in TABLES + SAMPLING_TABLES]
+EVERY_TABLE = [f"table_{name}" for name in [*TABLES, *SAMPLING_TABLES, "part_segmentation"]]
 CHAIN = ["reconstruct", "watertight", "occupancy", "udf", "dilation", "select_skeleton"]
 
 
@@ -151,7 +151,8 @@ def test_a_new_k_reruns_the_dilation_and_what_follows(smoke):
     rules = planned(smoke[0], "skeleton.k=10")
     assert rules == {"dilation", "select_skeleton", "cover_skeleton", "evaluate_skeletons", "time_stages",
                      "figure_skeletons", "figure_explanation", "write_config", *EVERY_TABLE,
-                     "local_feature_size", "train_sampler", "choose_points", "evaluate_samples"}  # fmt: skip
+                     "local_feature_size", "train_sampler", "choose_points", "evaluate_samples",
+                     "choose_labelled_points", "train_segmentation", "evaluate_segmentation"}  # fmt: skip
 
 
 def test_only_samplers_with_a_skeleton_of_ms3d_are_trained_again_for_a_new_k(smoke):
@@ -180,9 +181,29 @@ def test_every_sampler_is_judged_by_both_classifiers(smoke):
     assert {"MS3D minus SA", "MS3D minus uniform prior", "MS3D minus shuffled prior"} <= differences
 
 
+def test_parts_are_segmented_from_the_labels_of_every_strategy(smoke):
+    frame = pd.read_csv(smoke[0] / "results/smoke/tables/part_segmentation.csv", keep_default_na=False)
+    measured = frame[(frame["value"] != "not run") & (frame["metric"] == "miou") & (frame["group"] == "Chair")]
+    few = ["FPS, ratio 16", "LFS-weighted FPS, ratio 16", "MS3D, ratio 16"]
+    assert set(measured["method"]) == {"PointNet (all labels)", *few}
+    assert measured["value"].astype(float).between(0, 100).all()
+    assert (measured["n"].astype(int) == 2).all()
+    labels = frame[frame["metric"] == "labels"].set_index("method")["value"]
+    assert labels["FPS, ratio 16"] == "16"
+    assert float(labels["MS3D, ratio 16"]) <= 16
+
+
+def test_only_the_second_data_set_has_coarser_skeletons(smoke):
+    output = run(smoke[0], "experiment=smoke", "tasks.segmentation.skeletons.candidates=30000", "--", "--dry-run")
+    outputs = re.findall(r"^    output: (results/smoke/occupancy/\S+)", output, re.MULTILINE)
+    assert outputs
+    assert all("/synthetic_smoke_parts/train/" in path for path in outputs)
+
+
 def test_trainings_leave_logs_and_curves(smoke):
     folders = list((smoke[0] / "results/smoke/checkpoints").rglob("training.json"))
-    assert len(folders) == 5 - 1 + 9 + 1 + 1  # two teachers instead of three, samplers, two skeleton networks
+    # Two teachers instead of three, samplers, two skeleton networks, and networks for parts.
+    assert len(folders) == 5 - 1 + 9 + 1 + 1 + 4
     for folder in (path.parent for path in folders):
         assert list(folder.glob("*.csv"))
         assert list(folder.glob("curves/*/events*"))

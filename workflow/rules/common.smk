@@ -77,30 +77,33 @@ def shards(split, dataset=CONFIG.dataset.name):
     return [f"{number:05d}" for number in range(count)]
 
 
-def reconstruction(wildcards):
-    """Return the settings of the surface reconstruction that the wildcard names."""
-    return section("surface", wildcards.surface)
+def for_parts(usual, wildcards, **names):
+    """Return settings of a stage, for the second data set's shapes with the values that their skeletons have of their own.
 
-
-def of_part_skeletons(wildcards, key):
-    """Return one of the second data set's own settings of skeletons; None for the first one, or where it has none."""
+    Names: for each setting the one under `tasks.segmentation.skeletons` that takes its place.
+    """
     if wildcards.dataset == CONFIG.dataset.name:
-        return None
-    return section("tasks", "segmentation", "skeletons")[key]
+        return usual
+    own = section("tasks", "segmentation", "skeletons")
+    return {
+        name: value if own.get(names.get(name)) is None else own[names[name]]
+        for name, value in usual.items()
+    }
 
 
-def candidates(wildcards):
-    """Return how to scatter candidates in shapes of the data set that the wildcard names."""
-    usual = section("skeleton", "candidates")
-    count = of_part_skeletons(wildcards, "candidates")
-    return usual if count is None else {**usual, "count": count}
+def reconstruction(wildcards):
+    """Return the settings of the surface reconstruction that the wildcards name."""
+    return for_parts(section("surface", wildcards.surface), wildcards, depth="depth")
 
 
 def watertight(wildcards):
-    """Return how to close surfaces of shapes of the data set that the wildcard names."""
-    usual = section("watertight")
-    resolution = of_part_skeletons(wildcards, "resolution")
-    return usual if resolution is None else {**usual, "resolution": resolution}
+    """Return how to close surfaces."""
+    return for_parts(section("watertight"), wildcards, resolution="resolution")
+
+
+def candidates(wildcards):
+    """Return how to scatter candidates."""
+    return for_parts(section("skeleton", "candidates"), wildcards, count="candidates")
 
 
 def intermediate(folder):

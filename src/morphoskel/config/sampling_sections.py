@@ -103,6 +103,9 @@ class PartSkeletons(Section):
     resolution: Annotated[int, Field(ge=100)] | None = Field(
         description="leaves of the octree of the closed surface; null: as watertight.resolution says"
     )
+    depth: Annotated[int, Field(ge=2, le=12)] | None = Field(
+        description="octree depth of sampling.surface, if that is a Poisson reconstruction; null: as its section says"
+    )
 
 
 class Segmentation(Section):
