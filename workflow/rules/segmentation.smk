@@ -29,11 +29,12 @@ if strategies():
             validation_clouds=part_clouds(part_splits()[1] or []),
             validation_samples=validation_labels,
         output:
-            TRAINED_SEGMENTER,
+            # The networks of all seeds from one job: in short trainings, starting takes as long as training.
+            TRAINED_SEGMENTERS,
         log:
-            "<logs>/train_segmentation/{dataset}/{strategy}/{ratio}/{seed}.log",
+            "<logs>/train_segmentation/{dataset}/{strategy}/{ratio}.log",
         benchmark:
-            "<benchmarks>/train_segmentation/{dataset}/{strategy}/{ratio}/{seed}.tsv"
+            "<benchmarks>/train_segmentation/{dataset}/{strategy}/{ratio}.tsv"
         conda:
             "../../environment.yml"
         threads: CONFIG.trainer.threads
@@ -55,7 +56,7 @@ if strategies():
             },
             seed=CONFIG.seed,
             trainer=section("trainer"),
-            checkpoints=f"{RESULTS}/checkpoints/{{dataset}}/segmentation/{{strategy}}/{{ratio}}/{{seed}}",
+            checkpoints=f"{RESULTS}/checkpoints/{{dataset}}/segmentation/{{strategy}}/{{ratio}}",
             digest=code_digest("learning.segmentation_training"),
         script:
             "../scripts/train_segmentation.py"

@@ -1,4 +1,4 @@
-"""Train a network for parts from the labels of chosen points; checkpoints stay, so a killed training goes on."""
+"""Train networks for parts from the labels of chosen points; checkpoints stay, so a killed training goes on."""
 
 from pathlib import Path
 
@@ -6,18 +6,19 @@ from morphoskel.learning.segmentation_training import train_segmentation_on_file
 from morphoskel.logs import log_to
 
 log_to(snakemake.log[0])
-train_segmentation_on_files(
-    snakemake.wildcards.strategy,
-    int(snakemake.wildcards.ratio),
-    int(snakemake.wildcards.seed),
-    [Path(path) for path in snakemake.input.clouds],
-    [Path(path) for path in snakemake.input.samples],
-    Path(snakemake.output[0]),
-    Path(snakemake.params.checkpoints),
-    seed=snakemake.params.seed,
-    settings=snakemake.params.settings,
-    validation_clouds=next(map(Path, snakemake.input.validation_clouds), None),
-    validation_samples=next(map(Path, snakemake.input.validation_samples), None),
-    **snakemake.params.learning,
-    **snakemake.params.trainer,
-)
+for number, result in enumerate(snakemake.output):
+    train_segmentation_on_files(
+        snakemake.wildcards.strategy,
+        int(snakemake.wildcards.ratio),
+        number,
+        [Path(path) for path in snakemake.input.clouds],
+        [Path(path) for path in snakemake.input.samples],
+        Path(result),
+        Path(snakemake.params.checkpoints),
+        seed=snakemake.params.seed,
+        settings=snakemake.params.settings,
+        validation_clouds=next(map(Path, snakemake.input.validation_clouds), None),
+        validation_samples=next(map(Path, snakemake.input.validation_samples), None),
+        **snakemake.params.learning,
+        **snakemake.params.trainer,
+    )

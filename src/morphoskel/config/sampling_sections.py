@@ -140,7 +140,7 @@ class Segmentation(Section):
         description="how many times as many epochs, and epochs between decays, the training with all labels has"
     )
     skeletons: PartSkeletons = Field(
-        description="of the shapes of a second data set, which the strategy lfs alone needs"
+        description="of the shapes of a second data set, which the strategies lfs and ms3d need"
     )
     network: Segmenter = Field(description="the network and its training")
 
