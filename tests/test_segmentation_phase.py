@@ -116,29 +116,37 @@ def test_all_points_enter_the_network_or_the_labelled_ones_alone():
     assert torch.equal(seen_by(phase, phase.loss, SPARSE), SPARSE.points)  # neither turned, scaled nor moved
 
 
-@torch.no_grad()
-@pytest.mark.parametrize(("count", "expected"), [(3, (3, 1, 2)), (5, (3, 1, 2)), (2, (2, 1, 2)), (6, (3, 1, 2))])
-def test_thinned_clouds_keep_their_labelled_points_first(count, expected):
-    targets = torch.tensor([[-1, 3, -1, 4, -1, 1], [-1, -1, 2, -1, -1, -1], [0, -1, -1, -1, -1, 2]])
-    points = torch.arange(18.0).view(3, 6, 1).expand(-1, -1, 3)
+def a_batch(labels, points=40):
+    """Return points that are their own numbers, and targets of which so many in each cloud are known."""
+    targets = torch.full((len(labels), points), -1)
+    for cloud, count in enumerate(labels):
+        targets[cloud, torch.randperm(points)[:count]] = torch.randint(9, (count,))
+    return torch.arange(1.0 * targets.numel()).view(*targets.shape, 1).expand(-1, -1, 3), targets
+
+
+@pytest.mark.parametrize("count", [1, 4, 10, 13, 39])
+def test_thinned_clouds_have_a_quarter_of_labelled_points_where_there_are_so_many(count):
+    labels = [1, 2, 3, 10, 40]
+    points, targets = a_batch(labels)
     taken, of_taken = thinned(points, targets, count)
     places = taken[..., 0].long()
-    assert taken.shape == (3, count, 3)
+    assert taken.shape == (5, count, 3)
     assert torch.equal(of_taken, targets.flatten()[places])  # each point keeps its label
-    assert tuple((of_taken >= 0).sum(dim=1).tolist()) == expected
+    assert torch.equal(places // 40, torch.arange(5)[:, None].expand(-1, count))  # of its own cloud
     assert all(len(set(row)) == count for row in places.tolist())
-    assert torch.equal(places // 6, torch.arange(3)[:, None].expand(-1, count))  # of its own cloud
+    found = (of_taken >= 0).sum(dim=1)
+    assert all(found >= torch.tensor(labels).clamp(max=-(-count // 4)))
+    assert found[-1] == count
 
 
-@torch.no_grad()
-def test_thinning_takes_every_other_point_equally_often():
-    targets = torch.tensor([[-1, 3, -1, -1, -1, -1]]).expand(6000, -1)
-    points = torch.arange(6.0).view(1, 6, 1).expand(6000, -1, 3)
-    taken, _ = thinned(points, targets, 3)
-    counts = torch.bincount(taken[..., 0].flatten().long(), minlength=6)
-    assert counts[1] == 6000
-    others = counts[[0, 2, 3, 4, 5]].double()
-    assert (others - 2400).abs().max() < 5 * (6000 * 0.4 * 0.6) ** 0.5
+def test_thinning_takes_labelled_points_equally_often_and_others_too():
+    points, targets = a_batch([8], points=20)
+    repeated = 20000
+    taken, _ = thinned(points.expand(repeated, -1, -1), targets.expand(repeated, -1), 8)
+    shares = torch.bincount(taken[..., 0].flatten().long(), minlength=20).double() / repeated
+    # Two of eight labelled points for sure, then six of the eighteen points that are left.
+    expected = torch.where(targets[0] >= 0, 2 / 8 + 6 / 8 * 6 / 18, 6 / 18)
+    assert (shares - expected).abs().max() < 5 * (0.25 / repeated) ** 0.5
 
 
 @torch.no_grad()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import torch
@@ -14,6 +15,9 @@ from morphoskel.networks.pointnet2 import gather_rows
 from morphoskel.networks.pointnet_classifier import transform_penalty
 
 SEGMENTATION = "segmentation"
+
+LABELLED_SHARE = 0.25
+"""Of the points that are taken of a cloud, those that have labels for sure."""
 
 NOT_COUNTED = -1
 """The part of a point that the loss passes over."""
@@ -105,7 +109,10 @@ def _targets(parts: Tensor, labelled: Tensor) -> Tensor:
 
 
 def thinned(points: Tensor, targets: Tensor, count: int | None) -> tuple[Tensor, Tensor]:
-    """Take random points of each cloud, those with labels before others. Draws from torch's global generator.
+    """Take random points of each cloud, among them some with labels. Draws from torch's global generator.
+
+    Were all labelled points taken, the network would be trained on clouds that mostly hold what a sampler chose, which
+    need not be spread like those it is tested on.
 
     Parameters
     ----------
@@ -119,12 +126,15 @@ def thinned(points: Tensor, targets: Tensor, count: int | None) -> tuple[Tensor,
     Returns
     -------
     tuple of Tensor
-        Points ``(B, count, 3)`` and targets ``(B, count)``, in random order.
+        Points ``(B, count, 3)`` and targets ``(B, count)``, in random order. A quarter of the points, rounded up, have
+        labels where the cloud has so many; the others are drawn from all that are left.
     """
     if count is None or count >= points.shape[1]:
         return points, targets
-    order = torch.rand(targets.shape, device=points.device) + (targets != NOT_COUNTED)
-    rows = torch.topk(order, count, dim=1).indices
+    chance, order = torch.rand((2, *targets.shape), device=points.device)
+    first = torch.where(targets != NOT_COUNTED, chance, -1.0).topk(math.ceil(LABELLED_SHARE * count), dim=1)
+    order = order.scatter_add(1, first.indices, (first.values >= 0).to(order.dtype))
+    rows = order.topk(count, dim=1, sorted=False).indices
     return gather_rows(points, rows), targets.gather(1, rows)
 
 

@@ -57,8 +57,8 @@ class SegmentationSettings:
         all: all points of a training cloud enter the network, and the loss counts those with labels; labelled: only
         the points with labels enter.
     training_points
-        Points of a cloud that enter a step of the training, those with labels before others, drawn anew in every step;
-        at least 1. ``None``, as published: all. Everything but the maximum over the points works at each of them alone,
+        Points of a cloud that enter a step of the training, a quarter of them with labels, drawn anew in every step; at
+        least 1. ``None``, as published: all. Everything but the maximum over the points works at each of them alone,
         so that a step costs in proportion; more clouds a step then teach more in the same time.
 
     Raises
