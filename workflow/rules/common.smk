@@ -125,6 +125,10 @@ SKELETONS = (
 AXES = f"{RESULTS}/medial_axis/{{dataset}}/{{split}}/{{shard}}"
 EVALUATION = f"{RESULTS}/evaluation/{{dataset}}/{{split}}/{{surface}}/{{skeleton}}.csv"
 
+# Of the trainings for parts, and of what they wait for: the training with all labels is the longest job of all, and
+# would run alone in the end if it came last.
+EARLY = 10
+
 # What a training asks for beside processors.
 TRAINING_DEVICES = (
     {"gpu": CONFIG.trainer.devices} if CONFIG.trainer.accelerator == "gpu" else {}

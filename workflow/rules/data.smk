@@ -49,6 +49,7 @@ if CONFIG.parts and CONFIG.parts.kind == "synthetic":
         conda:
             "../../environment.yml"
         threads: workflow.cores or 1
+        priority: EARLY
         resources:
             mem_mb=2000,
             runtime=120,
@@ -109,6 +110,7 @@ rule write_manifest:
         "resources/benchmarks/manifest_{dataset}.tsv"
     conda:
         "../../environment.yml"
+    priority: EARLY
     resources:
         mem_mb=500,
         runtime=60,

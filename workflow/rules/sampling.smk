@@ -13,6 +13,7 @@ rule gather_clouds:
         "<benchmarks>/gather_clouds/{dataset}/{split}/{points}.tsv"
     conda:
         "../../environment.yml"
+    priority: EARLY
     resources:
         mem_mb=2000,
         runtime=60,

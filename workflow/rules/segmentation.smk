@@ -38,7 +38,7 @@ if strategies():
         conda:
             "../../environment.yml"
         threads: CONFIG.trainer.threads
-        priority: 10  # among them is the longest job of all, which should not be left to run alone in the end
+        priority: EARLY
         resources:
             **TRAINING_DEVICES,
             mem_mb=8000,
