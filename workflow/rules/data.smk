@@ -46,10 +46,10 @@ if CONFIG.parts and CONFIG.parts.kind == "synthetic":
             f"resources/logs/generate_{CONFIG.parts.name}.log",
         benchmark:
             f"resources/benchmarks/generate_{CONFIG.parts.name}.tsv"
+        priority: EARLY
         conda:
             "../../environment.yml"
         threads: workflow.cores or 1
-        priority: EARLY
         resources:
             mem_mb=2000,
             runtime=120,
@@ -108,9 +108,9 @@ rule write_manifest:
         "resources/logs/manifest_{dataset}.log",
     benchmark:
         "resources/benchmarks/manifest_{dataset}.tsv"
+    priority: EARLY
     conda:
         "../../environment.yml"
-    priority: EARLY
     resources:
         mem_mb=500,
         runtime=60,

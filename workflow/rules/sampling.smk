@@ -11,9 +11,9 @@ rule gather_clouds:
         "<logs>/gather_clouds/{dataset}/{split}/{points}.log",
     benchmark:
         "<benchmarks>/gather_clouds/{dataset}/{split}/{points}.tsv"
+    priority: EARLY
     conda:
         "../../environment.yml"
-    priority: EARLY
     resources:
         mem_mb=2000,
         runtime=60,

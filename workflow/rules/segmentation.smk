@@ -35,10 +35,10 @@ if strategies():
             "<logs>/train_segmentation/{dataset}/{strategy}/{ratio}.log",
         benchmark:
             "<benchmarks>/train_segmentation/{dataset}/{strategy}/{ratio}.tsv"
+        priority: EARLY
         conda:
             "../../environment.yml"
         threads: CONFIG.trainer.threads
-        priority: EARLY
         resources:
             **TRAINING_DEVICES,
             mem_mb=8000,
