@@ -61,8 +61,8 @@ def test_a_sampler_is_dropped_by_null_and_a_task_by_an_empty_list():
 
 @pytest.fixture(scope="module")
 def values():
-    """The values of the default experiment with clouds of the usual size, composed once."""
-    return compose(["sampling.points=1024"]).model_dump(mode="json")
+    """The values of the default experiment with clouds of the usual size and no parts to transfer to, composed once."""
+    return compose(["sampling.points=1024", "task=[classification]"]).model_dump(mode="json")
 
 
 def validate(values, key, value):

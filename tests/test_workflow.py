@@ -189,7 +189,7 @@ def test_parts_are_segmented_from_the_labels_of_every_strategy(smoke):
     assert measured["value"].astype(float).between(0, 100).all()
     assert (measured["n"].astype(int) == 2).all()
     labels = frame[frame["metric"] == "labels"].set_index("method")["value"]
-    assert labels["FPS, ratio 16"] == "16"
+    assert float(labels["FPS, ratio 16"]) == 16
     assert float(labels["MS3D, ratio 16"]) <= 16
 
 
