@@ -78,9 +78,9 @@ def shards(split, dataset=CONFIG.dataset.name):
 
 
 def for_parts(usual, wildcards, **names):
-    """Return settings of a stage, for the second data set's shapes with the values that their skeletons have of their own.
+    """Return the settings of a stage; for the second data set's shapes, with the values of their own.
 
-    Names: for each setting the one under `tasks.segmentation.skeletons` that takes its place.
+    `names` tells which value under `tasks.segmentation.skeletons` takes the place of a setting, unless it is null.
     """
     if wildcards.dataset == CONFIG.dataset.name:
         return usual
