@@ -68,7 +68,7 @@ def test_it_is_trained_and_evaluated(root, tmp_path):
                 strategy, ratio, 0, [clouds["train"]], chosen, file, tmp_path / "checkpoints", seed=3,
                 settings=TINY.as_mapping(), validation_clouds=clouds["val"],
                 validation_samples=samples["val"] if chosen else None, validation_share=0.5,
-                validation_labels="labelled", completed=False, label_sets=1, full_supervision=1,
+                validation_labels="labelled", completed=False, label_sets=1, full_supervision={},
                 accelerator="cpu",
             )  # fmt: skip
         rows.append(tmp_path / f"{strategy}.csv")

@@ -47,8 +47,8 @@ def test_settings_survive_as_a_mapping_and_make_a_configuration_section():
     assert all(field.description for field in section.model_fields.values())
 
 
-def test_a_lengthened_training_decays_as_many_times():
-    longer = TINY.lengthened(3)
-    assert longer.epochs == 3 * TINY.epochs
-    assert longer.epochs / longer.decay_epochs == TINY.epochs / TINY.decay_epochs
-    assert replace(longer, epochs=TINY.epochs, decay_epochs=TINY.decay_epochs) == TINY
+def test_settings_are_changed_where_a_value_is_given():
+    changed = TINY.changed({"epochs": TINY.epochs + 1, "decay_epochs": None})
+    assert changed == replace(TINY, epochs=TINY.epochs + 1)
+    with pytest.raises(ConfigError, match=r"^epochs: expected"):
+        TINY.changed({"epochs": 0})

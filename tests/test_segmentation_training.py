@@ -61,7 +61,7 @@ def train(folder, result, sampler="fps", ratio=5, number=0, clouds=("clouds",), 
         "validation_labels": "labelled",
         "completed": False,
         "label_sets": 1,
-        "full_supervision": 1,
+        "full_supervision": {},
         "seed": 3,
         **others,
     }
@@ -129,8 +129,9 @@ def epochs(path):
 
 def test_the_training_with_all_labels_alone_can_last_longer(files):
     usual = TINY.epochs, TINY.decay_epochs
-    assert epochs(train(files, "full", sampler=None, full_supervision=3)) == tuple(3 * number for number in usual)
-    assert epochs(train(files, "few", "random", full_supervision=3)) == usual
+    longer = {"epochs": 3 * TINY.epochs, "decay_epochs": None}
+    assert epochs(train(files, "full", sampler=None, full_supervision=longer)) == (3 * usual[0], usual[1])
+    assert epochs(train(files, "few", "random", full_supervision=longer)) == usual
 
 
 def test_several_files_are_one_training_set(files, tmp_path):

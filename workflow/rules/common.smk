@@ -133,6 +133,18 @@ EARLY = 10
 TRAINING_DEVICES = (
     {"gpu": CONFIG.trainer.devices} if CONFIG.trainer.accelerator == "gpu" else {}
 )
+TRAINER = {
+    name: value for name, value in section("trainer").items() if name != "together"
+}
+
+# The wildcards of a training beside what is trained.
+TRAINING = "" if CONFIG.trainer.together else "/{ratio}/{seed}"
+
+
+def of_one_job(pattern, **axes):
+    """Return the networks that one job trains: all those along the axes, or the one that wildcards name."""
+    together = CONFIG.trainer.together
+    return expand(pattern, **axes, allow_missing=True) if together else [pattern]
 
 
 def skeleton_methods():

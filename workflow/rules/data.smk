@@ -9,7 +9,7 @@ rule write_config:
     conda:
         "../../environment.yml"
     params:
-        config=SECTIONS,
+        digest=content_hash(SECTIONS),
     script:
         "../scripts/write_config.py"
 

@@ -53,7 +53,7 @@ rule train_classifier:
         settings=classifier_settings,
         seed=CONFIG.seed,
         validation_share=CONFIG.sampling.validation_share,
-        trainer=section("trainer"),
+        trainer=TRAINER,
         checkpoints=f"{RESULTS}/checkpoints/{{dataset}}/classifier/{{classifier}}",
         digest=code_digest("learning.classifier_training"),
     script:
@@ -84,7 +84,7 @@ if CONFIG.samplers.skeleton_aware:
             settings=section("samplers", "skeleton_aware", "skeleton"),
             seed=CONFIG.seed,
             validation_share=CONFIG.sampling.validation_share,
-            trainer=section("trainer"),
+            trainer=TRAINER,
             checkpoints=f"{RESULTS}/checkpoints/{CONFIG.dataset.name}/skeleton_aware",
             digest=code_digest("learning.skeleton_aware_training"),
         script:
@@ -97,11 +97,15 @@ rule train_sampler:
         priors=training_priors,
         classifiers=judging_classifiers,
     output:
-        TRAINED_SAMPLER,
+        of_one_job(
+            TRAINED_SAMPLER,
+            ratio=CONFIG.sampling.ratios,
+            seed=range(CONFIG.sampling.seeds),
+        ),
     log:
-        "<logs>/train_sampler/{dataset}/{sampler}/{ratio}/{seed}.log",
+        f"<logs>/train_sampler/{{dataset}}/{{sampler}}{TRAINING}.log",
     benchmark:
-        "<benchmarks>/train_sampler/{dataset}/{sampler}/{ratio}/{seed}.tsv"
+        f"<benchmarks>/train_sampler/{{dataset}}/{{sampler}}{TRAINING}.tsv"
     conda:
         "../../environment.yml"
     threads: CONFIG.trainer.threads
@@ -115,8 +119,8 @@ rule train_sampler:
         steps=CONFIG.sampling.steps,
         validation_share=CONFIG.sampling.validation_share,
         seed=CONFIG.seed,
-        trainer=section("trainer"),
-        checkpoints=f"{RESULTS}/checkpoints/{{dataset}}/sampler/{{sampler}}/{{ratio}}/{{seed}}",
+        trainer=TRAINER,
+        checkpoints=f"{RESULTS}/checkpoints/{{dataset}}/sampler/{{sampler}}",
         digest=code_digest("learning.sampler_training"),
     script:
         "../scripts/train_sampler.py"

@@ -17,11 +17,6 @@ SAMPLES = f"{RESULTS}/samples/{{dataset}}/{{split}}/{{sampler}}"
 JUDGED = f"{RESULTS}/evaluation/{{{{dataset}}}}/{{{{split}}}}/samples/{{{{sampler}}}}_{{level}}.csv"
 LABELLED_POINTS = f"{RESULTS}/labelled_points/{{dataset}}/{{split}}/{{sampler}}"
 TRAINED_SEGMENTER = f"{RESULTS}/networks/{{dataset}}/segmentation/{{strategy}}/{{ratio}}/{{seed}}/network.pt"
-TRAINED_SEGMENTERS = expand(
-    TRAINED_SEGMENTER,
-    seed=range(CONFIG.tasks.segmentation.seeds if CONFIG.tasks.segmentation else 0),
-    allow_missing=True,
-)
 SEGMENTED = f"{RESULTS}/evaluation/{{dataset}}/{{split}}/segmentation/{{strategy}}.csv"
 
 # Clouds as the samplers, and as the networks for parts see them.
@@ -230,10 +225,11 @@ def trained_segmenters(wildcards):
     """Return the networks of a strategy for all ratios and seeds."""
     every = wildcards.strategy == EVERY_LABEL
     return expand(
-        TRAINED_SEGMENTERS,
+        TRAINED_SEGMENTER,
         dataset=wildcards.dataset,
         strategy=wildcards.strategy,
         ratio=[1] if every else CONFIG.tasks.segmentation.ratios,
+        seed=range(CONFIG.tasks.segmentation.seeds),
     )
 
 

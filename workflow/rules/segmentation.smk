@@ -29,12 +29,17 @@ if strategies():
             validation_clouds=part_clouds(part_splits()[1] or []),
             validation_samples=validation_labels,
         output:
-            # The networks of all seeds from one job: in short trainings, starting takes as long as training.
-            TRAINED_SEGMENTERS,
+            of_one_job(
+                TRAINED_SEGMENTER,
+                ratio=CONFIG.tasks.segmentation.ratios,
+                seed=range(CONFIG.tasks.segmentation.seeds),
+            ),
         log:
-            "<logs>/train_segmentation/{dataset}/{strategy}/{ratio}.log",
+            f"<logs>/train_segmentation/{{dataset}}/{{strategy}}{TRAINING}.log",
         benchmark:
-            "<benchmarks>/train_segmentation/{dataset}/{strategy}/{ratio}.tsv"
+            f"<benchmarks>/train_segmentation/{{dataset}}/{{strategy}}{TRAINING}.tsv"
+        wildcard_constraints:
+            strategy=f"(?!{EVERY_LABEL}/)[a-z0-9_]+",
         priority: EARLY
         conda:
             "../../environment.yml"
@@ -56,11 +61,24 @@ if strategies():
                 )
             },
             seed=CONFIG.seed,
-            trainer=section("trainer"),
-            checkpoints=f"{RESULTS}/checkpoints/{{dataset}}/segmentation/{{strategy}}/{{ratio}}",
+            trainer=TRAINER,
+            checkpoints=f"{RESULTS}/checkpoints/{{dataset}}/segmentation",
             digest=code_digest("learning.segmentation_training"),
         script:
             "../scripts/train_segmentation.py"
+
+    use rule train_segmentation as train_full_segmentation with:
+        input:
+            clouds=part_clouds(part_splits()[0]),
+            samples=[],
+            validation_clouds=part_clouds(part_splits()[1] or []),
+            validation_samples=[],
+        output:
+            TRAINED_SEGMENTER.replace("{strategy}", EVERY_LABEL).replace("{ratio}", "1"),
+        log:
+            f"<logs>/train_segmentation/{{dataset}}/{EVERY_LABEL}/{{seed}}.log",
+        benchmark:
+            f"<benchmarks>/train_segmentation/{{dataset}}/{EVERY_LABEL}/{{seed}}.tsv"
 
     rule evaluate_segmentation:
         input:

@@ -6,15 +6,16 @@ from morphoskel.learning.segmentation_training import train_segmentation_on_file
 from morphoskel.logs import log_to
 
 log_to(snakemake.log[0])
-for number, result in enumerate(snakemake.output):
+for result in map(Path, snakemake.output):
+    strategy, ratio, number = result.parts[-4:-1]
     train_segmentation_on_files(
-        snakemake.wildcards.strategy,
-        int(snakemake.wildcards.ratio),
-        number,
+        strategy,
+        int(ratio),
+        int(number),
         [Path(path) for path in snakemake.input.clouds],
         [Path(path) for path in snakemake.input.samples],
-        Path(result),
-        Path(snakemake.params.checkpoints),
+        result,
+        Path(snakemake.params.checkpoints) / strategy / ratio / number,
         seed=snakemake.params.seed,
         settings=snakemake.params.settings,
         validation_clouds=next(map(Path, snakemake.input.validation_clouds), None),

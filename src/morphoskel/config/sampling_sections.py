@@ -108,6 +108,14 @@ class PartSkeletons(Section):
     )
 
 
+class FullSupervision(Section):
+    """What differs for the training with all labels, which has more to learn from; null: as for the others."""
+
+    epochs: PositiveInt | None = Field(description="passes over the training clouds")
+    decay_epochs: PositiveInt | None = Field(description="epochs between decays of the learning rate")
+    training_points: PositiveInt | None = Field(description="points of a cloud that enter a step")
+
+
 class Segmentation(Section):
     """Part segmentation from few labels."""
 
@@ -136,9 +144,7 @@ class Segmentation(Section):
         description="whether farthest points take the place of points that a sampler chose twice; only so has every "
         "shape as many labels as the ratio says"
     )
-    full_supervision: PositiveInt = Field(
-        description="how many times as many epochs, and epochs between decays, the training with all labels has"
-    )
+    full_supervision: FullSupervision = Field(description="what differs for the training with all labels")
     skeletons: PartSkeletons = Field(
         description="of the shapes of a second data set, which the strategies lfs and ms3d need"
     )

@@ -133,6 +133,10 @@ class Trainer(Section):
     accelerator: Literal["auto", "cpu", "gpu"] = Field(description="processor or graphics card")
     devices: PositiveInt = Field(description="graphics cards of a training, or processes on a processor")
     threads: PositiveInt = Field(description="threads of the processor; results on a processor depend on it")
+    together: bool = Field(
+        description="train a sampler, or a row of part segmentation, for all ratios and seeds in one job, one after "
+        "the other: saves the start where trainings are short; does not change results"
+    )
 
 
 class Timing(Section):

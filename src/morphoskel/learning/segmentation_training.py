@@ -86,7 +86,7 @@ def train_segmentation_on_files(
     validation_labels: Literal["labelled", "all"],
     completed: bool,
     label_sets: int,
-    full_supervision: int,
+    full_supervision: Mapping[str, Any],
     accelerator: str = "auto",
     devices: int = 1,
     threads: int = 1,
@@ -124,8 +124,7 @@ def train_segmentation_on_files(
     completed, label_sets
         See :class:`~morphoskel.sampling.labelled_points.LabelRequest`.
     full_supervision
-        Without `samples`, how many times as many epochs to train as the settings say, and as many times as long
-        between the steps of the learning rate.
+        Settings that take the place of the others without `samples`; ``None`` leaves one as it is.
     accelerator, devices, threads
         Where to train, and with how many threads of a processor.
 
@@ -141,7 +140,7 @@ def train_segmentation_on_files(
     torch.set_num_threads(threads)
     chosen = SegmentationSettings(**{name: as_tuples(value) for name, value in settings.items()})
     if not samples:
-        chosen = chosen.lengthened(full_supervision)
+        chosen = chosen.changed(full_supervision)
     request = LabelRequest(ratio, number, label_sets, completed)
     shapes = judged = _read(clouds, samples, request)
     if validation_clouds is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
@@ -123,9 +124,9 @@ class SegmentationSettings:
                 f"{self.lowest_learning_rate}"
             )
 
-    def lengthened(self, times: int) -> SegmentationSettings:
-        """Return the same settings with as many times the epochs, and the epochs between decays."""
-        return replace(self, epochs=times * self.epochs, decay_epochs=times * self.decay_epochs)
+    def changed(self, values: Mapping[str, Any]) -> SegmentationSettings:
+        """Return the same settings but for those given, of which ``None`` changes nothing."""
+        return replace(self, **{name: value for name, value in values.items() if value is not None})
 
     def as_mapping(self) -> dict[str, Any]:
         """Return the settings as plain numbers, words and tuples by name."""

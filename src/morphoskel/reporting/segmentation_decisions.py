@@ -35,7 +35,7 @@ def describe_decisions(
         if network["know_category"]
         else "The network is not told the category of a shape.",
         _epoch(task, *splits),
-        *_longer(task["full_supervision"]),
+        *_full_supervision(task["full_supervision"]),
         "Farthest points start with the first point of the cloud.",
     ]
 
@@ -84,5 +84,11 @@ def _epoch(task: Mapping[str, Any], training: Sequence[str], validation: str | N
     return f"Trained on {' and '.join(training)}; the epoch is that of the smallest loss on {points} of {shapes}."
 
 
-def _longer(times: int) -> list[str]:
-    return [] if times == 1 else [f"Trained for {times} times as many epochs as the others: the row with all labels."]
+def _full_supervision(changes: Mapping[str, int | None]) -> list[str]:
+    words = {
+        "epochs": "{} epochs",
+        "decay_epochs": "{} epochs between decays of the learning rate",
+        "training_points": "{} points of a cloud a step",
+    }
+    changed = [words[name].format(value) for name, value in changes.items() if value is not None]
+    return [f"Trained otherwise: the row with all labels, with {', '.join(changed)}."] if changed else []
