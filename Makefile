@@ -5,8 +5,11 @@ VENV := .venv
 BIN := $(VENV)/bin
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 READY := $(VENV)/.ready
+ASSETS := src/morphoskel/reporting/assets
+THREE := 0.187.0
+ESBUILD := 0.28.2
 
-.PHONY: all test lint unit bench format lock help clean
+.PHONY: all test lint unit bench format lock viewer help clean
 
 all: $(READY) ## every table and figure on the embedded data set (results/demo)
 	@$(BIN)/morphoskel run
@@ -45,6 +48,17 @@ lock: ## pin the newest versions that pyproject.toml admits, in requirements.loc
 	$(VENV)-lock/bin/pip install --disable-pip-version-check --quiet torch==2.13.0 hatchling editables ".[dev]"
 	$(VENV)-lock/bin/python -m morphoskel.lock
 	rm -rf $(VENV)-lock
+
+viewer: ## bundle the script of the interactive viewer anew, with the three.js and esbuild pinned here (needs npm)
+	scratch=$$(mktemp -d); trap 'rm -rf "$$scratch"' EXIT; \
+	cp $(ASSETS)/viewer*.js "$$scratch"; rm -f "$$scratch/viewer.min.js"; cd "$$scratch"; \
+	digest=$$(LC_ALL=C; cat viewer*.js | sha256sum | cut -c -16); \
+	npm install --no-save --no-audit --no-fund --ignore-scripts three@$(THREE) esbuild@$(ESBUILD); \
+	banner="/* MorphoSkel viewer, made by make viewer of sources $$digest. Holds three.js $(THREE), see three.LICENSE. */"; \
+	node_modules/.bin/esbuild viewer.js --bundle --minify --format=iife --target=es2022 --legal-comments=none \
+		--banner:js="$$banner" --outfile=viewer.min.js; \
+	cp viewer.min.js "$(CURDIR)/$(ASSETS)/viewer.min.js"; \
+	cp node_modules/three/LICENSE "$(CURDIR)/$(ASSETS)/three.LICENSE"
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' Makefile | sed -E 's/^([a-z]+):.*## (.*)/  make \1|\2/' | column -t -s '|'

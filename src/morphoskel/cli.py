@@ -10,6 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from morphoskel import __version__
+from morphoskel.commands.compare_command import add_compare, run_compare
+from morphoskel.commands.export_command import add_export, run_export
+from morphoskel.commands.subcommand import Subcommands, add_subcommand
+from morphoskel.commands.view_command import add_view, run_view
 from morphoskel.errors import MorphoSkelError
 from morphoskel.methods import METHODS
 from morphoskel.sampling.samplers import SAMPLERS
@@ -105,7 +109,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if parsed.command == "run":
             return _run(parsed, options)
-        actions = {"skeletonize": _skeletonize, "sample": _sample, "config": _show_config}
+        actions = {"skeletonize": _skeletonize, "sample": _sample, "export": run_export, "compare": run_compare,
+                   "view": run_view, "config": _show_config}  # fmt: skip
         return actions[parsed.command](parsed)
     except MorphoSkelError as error:
         logger.error("morphoskel: %s", error)
@@ -124,10 +129,11 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser("morphoskel", description=DESCRIPTION)
     parser.add_argument("--version", action="version", version=f"morphoskel {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    run = _add(commands, "run", "build tables, figures or any other target of the workflow", RUN_EXAMPLES)
+    run = add_subcommand(commands, "run", "build tables, figures or any other target of the workflow", RUN_EXAMPLES)
     run.add_argument("words", nargs="*", metavar="TARGET | key=value", help="rules, files, and overrides, in any order")
-    one = _add(commands, "skeletonize", "skeletonize shapes of your own: PLY, PCD, OBJ, OFF, STL, XYZ, TXT, NPY, NPZ",
-               SKELETONIZE_EXAMPLES)  # fmt: skip
+    one = add_subcommand(commands, "skeletonize",
+                         "skeletonize shapes of your own: PLY, PCD, OBJ, OFF, STL, XYZ, TXT, NPY, NPZ",
+                         SKELETONIZE_EXAMPLES)  # fmt: skip
     one.add_argument("words", nargs="+", metavar="INPUT | key=value", help="files or folders, and overrides")
     one.add_argument("-o", "--output", type=Path, required=True, metavar="DIR", help="folder to write to")
     one.add_argument("--method", default="ms3d_coverage", choices=METHODS, metavar="NAME",
@@ -137,14 +143,17 @@ def _parser() -> argparse.ArgumentParser:
     one.add_argument("--network", type=Path, metavar="PATH", help="file with a trained network, for point2skeleton")
     one.add_argument("--plot", action="store_true", help="also draw the balls, inside the surface if any, as PNG")
     _add_sample(commands)
-    config = _add(commands, "config", "print the configuration that the overrides give", CONFIG_EXAMPLES)
+    for add in (add_export, add_compare, add_view):
+        add(commands)
+    config = add_subcommand(commands, "config", "print the configuration that the overrides give", CONFIG_EXAMPLES)
     config.add_argument("words", nargs="*", metavar="key=value", help="overrides")
     return parser
 
 
-def _add_sample(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    sample = _add(commands, "sample", "choose points of shapes of your own, for example more of them in thin parts",
-                  SAMPLE_EXAMPLES)  # fmt: skip
+def _add_sample(commands: Subcommands) -> None:
+    sample = add_subcommand(commands, "sample",
+                            "choose points of shapes of your own, for example more of them in thin parts",
+                            SAMPLE_EXAMPLES)  # fmt: skip
     sample.add_argument("words", nargs="+", metavar="INPUT | key=value", help="files or folders, and overrides")
     sample.add_argument("-o", "--output", type=Path, required=True, metavar="DIR", help="folder to write to")
     sample.add_argument("--sampler", default="lfs", choices=SAMPLERS, metavar="NAME",
@@ -159,18 +168,6 @@ def _add_sample(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -
     sample.add_argument("--noise", action="store_true",
                         help="let the network draw points instead of taking the most probable ones")  # fmt: skip
     sample.add_argument("--plot", action="store_true", help="also draw the chosen points in their cloud, as PNG")
-
-
-def _add(
-    commands: argparse._SubParsersAction[argparse.ArgumentParser], name: str, summary: str, examples: str
-) -> argparse.ArgumentParser:
-    return commands.add_parser(
-        name,
-        help=summary,
-        description=summary[0].upper() + summary[1:] + ".",
-        epilog=examples,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
 
 
 def _is_override(word: str) -> bool:

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from morphoskel.shapes import FloatArray, Mesh, Skeleton
+from morphoskel.skeleton.ball_mesh import ball_mesh
 
 Image = npt.NDArray[np.float64]
 LIGHT = np.array([0.35, 0.65, 0.68])
@@ -18,6 +19,9 @@ VEIL_COLOUR = np.array([0.45, 0.5, 0.58])
 
 OVERSAMPLING = 2
 """Rays along each side of a pixel."""
+
+SUBDIVISIONS = 3
+"""Of the icospheres that stand for balls."""
 
 
 @dataclass(frozen=True)
@@ -106,12 +110,12 @@ def render_balls(
     ndarray
         ``(pixels, pixels, 3)`` float64 in [0, 1], on white.
     """
-    balls, owner = _tessellate(skeleton)
+    balls, owner = ball_mesh(skeleton, subdivisions=SUBDIVISIONS)
     rays = view.rays(*(under or balls).bounds)
     picture: Image = np.ones((*rays.shape[:2], 3))
     depth, normals, triangle = _cast(balls, rays)
     hit = np.isfinite(depth)
-    ball = owner[triangle[hit]]
+    ball = owner[balls.triangles[triangle[hit], 0]]
     where = rays[hit][:, :3] + depth[hit][:, None] * rays[hit][:, 3:]
     normals[hit] = (where - skeleton.points[ball]) / np.maximum(skeleton.radii[ball], 1e-12)[:, None]
     picture[hit] = _shade(colours[ball], normals[hit], view)
@@ -152,15 +156,3 @@ def _cast(mesh: Mesh, rays: npt.NDArray[np.float32]) -> tuple[FloatArray, FloatA
     away = np.einsum("...i,...i->...", normals, rays[..., 3:]) > 0
     normals[away] *= -1
     return hits["t_hit"].numpy().astype(np.float64), normals, hits["primitive_ids"].numpy()
-
-
-def _tessellate(skeleton: Skeleton) -> tuple[Mesh, npt.NDArray[np.int64]]:
-    """Return all balls as one mesh, and the ball that each triangle belongs to."""
-    import trimesh
-
-    sphere = trimesh.creation.icosphere(subdivisions=3)
-    count, corners = len(skeleton), len(sphere.vertices)
-    vertices = skeleton.points[:, None] + skeleton.radii[:, None, None] * np.asarray(sphere.vertices)
-    triangles = np.arange(count)[:, None, None] * corners + np.asarray(sphere.faces)
-    owner = np.repeat(np.arange(count), len(sphere.faces))
-    return Mesh(vertices.reshape(-1, 3), triangles.reshape(-1, 3)), owner

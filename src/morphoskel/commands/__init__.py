@@ -1,0 +1,1 @@
+"""The subcommands of ``morphoskel`` that look at results: export, compare and view."""

@@ -1,0 +1,1 @@
+"""Skeletons as coloured meshes that other programs open."""
