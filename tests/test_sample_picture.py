@@ -1,9 +1,10 @@
 import numpy as np
+import pytest
 from PIL import Image
 from solids import sphere_cloud
 
 from morphoskel.reporting.render import View
-from morphoskel.reporting.sample_picture import draw_sample
+from morphoskel.reporting.sample_picture import draw_sample, nearness
 
 CLOUD = sphere_cloud(400)
 
@@ -42,3 +43,9 @@ def test_a_flat_cloud_and_one_on_its_skeleton_can_be_drawn(tmp_path):
     flat = type(CLOUD)(CLOUD.points * [1, 0, 0])
     draw_sample(tmp_path / "a.png", flat, np.arange(5), np.zeros(400), title="line", view=View(pixels=200))
     assert pixels(tmp_path / "a.png").min() < 0.5
+
+
+def test_the_nearest_point_is_at_one_and_the_farthest_at_zero():
+    front = View(azimuth=0, elevation=0)
+    assert nearness(np.array([[5.0, 1, 2], [0, 0, -2], [0, 9, 0]]), front) == pytest.approx([1, 0, 0.5])
+    assert nearness(np.ones((2, 3)), front) == pytest.approx([0, 0])

@@ -56,7 +56,7 @@ def draw_sample(
 
     view = view or View()
     right, up, depth = view.axes() @ cloud.points.T
-    nearness = np.clip((depth - depth.min()) / max(float(np.ptp(depth)), 1e-12), 0, 1)
+    near = nearness(cloud.points, view)
     extents = np.array([np.ptp(right), np.ptp(up)])
     width, height = INCHES * np.maximum(extents / max(extents.max(), 1e-12), 0.4)
     figure = Figure(figsize=(width + (1.0 if sizes is not None else 0.2), height + 0.4), layout="constrained")
@@ -69,11 +69,20 @@ def draw_sample(
         colours = scale.to_rgba(sizes[chosen])
         label = "local feature size, in the shape's unit"
         figure.colorbar(scale, ax=axes, label=label, shrink=0.8, pad=0.02, extend="max")
-    colours[:, 3] = 0.25 + 0.75 * nearness[chosen]
-    axes.scatter(right, up, DOT_AREA, CLOUD_COLOUR, alpha=0.15 + 0.65 * nearness, lw=0)
+    colours[:, 3] = 0.25 + 0.75 * near[chosen]
+    of_cloud = np.tile(to_rgba(CLOUD_COLOUR), (len(cloud), 1))
+    of_cloud[:, 3] = 0.15 + 0.65 * near
+    axes.scatter(right, up, DOT_AREA, of_cloud, lw=0)
     order = np.argsort(depth[chosen])  # the nearest are drawn last
     axes.scatter(right[chosen][order], up[chosen][order], CHOSEN_AREA, colours[order], edgecolors="white", lw=0.6)
     axes.set(xticks=[], yticks=[], frame_on=False, title=f"{title}: {len(chosen):,} of {len(cloud):,} points")
     axes.set_aspect("equal")
     with atomic_file(path) as partial:
         figure.savefig(partial, dpi=view.pixels / INCHES, format="png")
+
+
+def nearness(points: FloatArray, view: View) -> FloatArray:
+    """Return how near points ``(N, 3)`` are to the viewer, ``(N,)``: 0 the farthest, 1 the nearest."""
+    depth = points @ view.axes()[2]
+    near: FloatArray = np.clip((depth - depth.min()) / max(float(np.ptp(depth)), 1e-12), 0, 1)
+    return near
