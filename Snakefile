@@ -7,6 +7,7 @@ min_version("9.27")
 
 include: "workflow/rules/common.smk"
 include: "workflow/rules/sampling_inputs.smk"
+include: "workflow/rules/figure_inputs.smk"
 include: "workflow/rules/data.smk"
 include: "workflow/rules/skeleton.smk"
 include: "workflow/rules/learning.smk"
@@ -16,7 +17,10 @@ include: "workflow/rules/segmentation.smk"
 include: "workflow/rules/timing.smk"
 include: "workflow/rules/evaluation.smk"
 include: "workflow/rules/tables.smk"
+include: "workflow/rules/illustrations.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/charts.smk"
+include: "workflow/rules/report.smk"
 
 
 report: "workflow/report/workflow.rst"
@@ -39,6 +43,9 @@ rule all:
         rules.table_surface_reconstruction.output,
         rules.table_processing_time.output,
         learning_tables(),
-        rules.figure_contact_sheet.output,
-        rules.figure_skeletons.output,
-        [rules.figure_explanation.output] if len(CONFIG.skeleton.selection) > 1 else [],
+        expand(
+            f"{RESULTS}/figures/{{name}}.{{kind}}",
+            name=every_figure(),
+            kind=["png", "pdf"],
+        ),
+        rules.html_report.output,

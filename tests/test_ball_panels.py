@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from solids import ball
 
-from morphoskel.reporting.figures.ball_panels import POINT_COLOUR, draw_balls, joint_bounds
+from morphoskel.reporting.figures.ball_panels import POINT_COLOUR, draw_balls, draw_in_surface, joint_bounds
 from morphoskel.reporting.render import View, ball_bounds
 from morphoskel.shapes import Skeleton
 
@@ -44,3 +44,11 @@ def test_points_and_veil_are_drawn_over_the_balls():
     assert np.argmax(colour) == np.argmax(POINT_COLOUR)
     veiled = draw_balls(BALLS, FRONT, bounds, veil=ball(radius=0.8, subdivisions=3))
     assert (plain != veiled).any(axis=2).sum() > 500
+
+
+def test_words_stay_in_the_place_of_a_skeleton_and_leave_out_a_surface():
+    bounds, surface = ball_bounds(BALLS), ball(radius=0.8, subdivisions=3)
+    assert draw_in_surface(surface, "failed", FRONT, bounds) == "failed"
+    veiled = draw_in_surface(surface, BALLS, FRONT, bounds, largest=2.0)
+    assert np.array_equal(veiled, draw_balls(BALLS, FRONT, bounds, largest=2.0, veil=surface))
+    assert np.array_equal(draw_in_surface("failed", BALLS, FRONT, bounds), draw_balls(BALLS, FRONT, bounds))

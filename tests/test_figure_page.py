@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from morphoskel.reporting.figure_page import add_scale, cropped, figure_page, paint, show
+from morphoskel.reporting.figure_page import PART_COLOURS, add_scale, cropped, figure_page, paint, paint_parts, show
 
 
 def draw(folder, fail=False):
@@ -55,3 +55,10 @@ def test_colours_run_from_end_to_end_of_the_map():
     assert np.array_equal(colours[[0, 1, 3, 4]], np.repeat(ends, 2, axis=0))
     assert not np.array_equal(colours[2], colours[1])
     assert paint(np.zeros(2), 0, 0, "viridis").shape == (2, 3)
+
+
+def test_every_part_has_its_colour_and_the_colours_begin_anew():
+    colours = paint_parts(np.arange(len(PART_COLOURS) + 1))
+    assert len(np.unique(colours, axis=0)) == len(PART_COLOURS)
+    assert np.array_equal(colours[0], colours[-1])
+    assert colours[1] == pytest.approx([0xEE / 255, 0x66 / 255, 0x77 / 255])

@@ -4,7 +4,7 @@ from scipy import ndimage
 from shard_folders import both, pixels
 
 from morphoskel.errors import InputError
-from morphoskel.reporting.figures.panels import Row, Scale, draw_rows
+from morphoskel.reporting.figures.panels import Row, Scale, crop_alike, draw_rows
 
 
 def blobs(picture, colour=(0, 0, 0)):
@@ -54,6 +54,29 @@ def test_a_scale_is_drawn_at_the_right(tmp_path, of_all):
     picture = pixels(tmp_path / "figure.png")
     where = np.argwhere(np.abs(picture - (0.993, 0.906, 0.144)).max(axis=2) < 0.02)
     assert where[:, 1].min() > 0.75 * picture.shape[1]
+
+
+def test_long_names_are_broken_into_lines_that_do_not_meet(tmp_path):
+    rows = [Row([black(100, 100)], name="Coverage Axis++, repaired Poisson")] * 2
+    dark = {}
+    for level in (False, True):
+        draw_rows(both(tmp_path), rows, width=1.5, level_names=level)
+        picture = pixels(tmp_path / "figure.png")
+        (_, upper), _ = blobs(picture)
+        names = (picture[:, : picture.shape[1] - upper - 20] < 0.5).any(axis=2)
+        dark[level] = np.flatnonzero(names.any(axis=1))
+    assert np.diff(dark[True]).max() > 100  # between the two names
+    assert np.ptp(dark[True]) < np.ptp(dark[False])
+
+
+def test_pictures_are_cropped_alike_and_words_stay_in_place():
+    pictures = [np.ones((30, 30, 3)) for _ in "ab"]
+    pictures[0][10, 10] = pictures[1][20, 20] = 0
+    first, words, second = crop_alike([pictures[0], "failed", pictures[1]])
+    assert words == "failed"
+    assert first.shape == second.shape == (23, 23, 3)
+    assert (first[6, 6] == 0).all()
+    assert crop_alike(["failed"]) == ["failed"]
 
 
 @pytest.mark.parametrize("rows", [[], [Row([])]])

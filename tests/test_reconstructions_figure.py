@@ -60,6 +60,11 @@ def test_a_failed_reconstruction_says_so_in_its_column(tmp_path):
     assert (tmp_path / "figure.pdf").exists()
 
 
+def test_words_alone_are_drawn_where_all_failed(tmp_path):
+    draw_reconstructions(both(tmp_path), {"ball": {"poisson": Rebuilt("failed", "not computed")}}, view=SMALL)
+    assert 0.001 < (pixels(tmp_path / "figure.png") < 0.5).any(axis=2).mean() < 0.05
+
+
 def test_nothing_to_draw_is_refused(tmp_path):
     with pytest.raises(InputError, match="at least one shape"):
         draw_reconstructions(both(tmp_path), {})

@@ -11,6 +11,7 @@ from morphoskel.evaluation.sphere_metrics import (
     hd_recon,
     mean_point_to_sphere,
     mean_sphere_to_point,
+    point_to_sphere_distances,
     sphere_distances,
 )
 
@@ -80,6 +81,15 @@ def test_by_hand_with_the_nearest_centre_instead_of_the_nearest_sphere():
     assert cd_recon(distances, "correct") == 1.75 / 2 + 2.25 / 3
     assert cd_recon(distances, "released") == 1.75 / 2 + 2.25 / 2
     assert hd_recon(distances) == 1.75
+
+
+@settings(deadline=None)
+@given(SEEDS)
+def test_each_point_alone_is_as_far_from_its_sphere_as_among_others(seed):
+    points, centres, radii = random_case(seed)
+    distances = point_to_sphere_distances(points, centres, radii)
+    alone = [sphere_distances(point[None], centres, radii).point_to_sphere_max for point in points]
+    np.testing.assert_allclose(distances, alone, atol=1e-12)
 
 
 def test_hausdorff_takes_the_larger_direction():

@@ -49,6 +49,9 @@ wildcard_constraints:
     ratio=r"\d+",
     seed=r"\d+",
     points=r"\d+",
+    candidates=r"\d+",
+    shape="overview|torus|box",
+    mode="random|grid",
     strategy="[a-z0-9_]+",
     classifier="[a-z0-9_]+",
 

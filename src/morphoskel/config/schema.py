@@ -145,6 +145,23 @@ class Timing(Section):
     shapes_per_category: PositiveInt = Field(description="shapes timed in each category")
 
 
+class Figures(Section):
+    """What the figures show."""
+
+    overview: str = Field(description="dragon: one of our own; or a file with a cloud or a mesh")
+    candidates: Annotated[int, Field(ge=1000)] = Field(description="candidates in that shape")
+    sparse: Annotated[int, Field(ge=100)] = Field(description="candidates where they are drawn in their box")
+    dense: Annotated[int, Field(ge=1000)] = Field(description="candidates of the comparison with more of them")
+    rationale: Annotated[int, Field(ge=1000)] = Field(description="candidates in torus and box")
+    scaling: tuple[Annotated[int, Field(ge=100)], ...] = Field(
+        min_length=2, description="numbers of candidates of the scaling curve"
+    )
+    repeats: PositiveInt = Field(description="measurements of each number")
+    shapes: tuple[str, ...] = Field(
+        description="shapes or categories to be drawn first, by parts of their names in lower case"
+    )
+
+
 class Config(Section):
     """One experiment."""
 
@@ -182,6 +199,7 @@ class Config(Section):
     tasks: Tasks = Tasks()
     trainer: Trainer
     timing: Timing
+    figures: Figures
 
     @property
     def segmented(self) -> Dataset | None:

@@ -81,8 +81,7 @@ def sphere_distances(surface_points: FloatArray, centres: FloatArray, radii: Flo
     if not np.isfinite(radii).all() or (radii < 0).any():
         raise InputError("radii: every value must be finite and at least 0")
 
-    to_centre, nearest = KDTree(centres).query(surface_points)
-    point_to_sphere = np.abs(to_centre - radii[nearest])
+    point_to_sphere = point_to_sphere_distances(surface_points, centres, radii)
     to_point, _ = KDTree(surface_points).query(centres)
     sphere_to_point = np.abs(to_point - radii)
     return SphereDistances(
@@ -93,6 +92,18 @@ def sphere_distances(surface_points: FloatArray, centres: FloatArray, radii: Flo
         sphere_to_point_sum=float(sphere_to_point.sum()),
         sphere_to_point_max=float(sphere_to_point.max()),
     )
+
+
+def point_to_sphere_distances(surface_points: FloatArray, centres: FloatArray, radii: FloatArray) -> FloatArray:
+    """Return the distance of each surface point to the sphere with the nearest centre, ``(N,)`` float64.
+
+    See :func:`sphere_distances`, whose first sum and maximum these are; here the arrays are not checked.
+    """
+    from scipy.spatial import KDTree
+
+    to_centre, nearest = KDTree(centres).query(surface_points)
+    distances: FloatArray = np.abs(to_centre - radii[nearest])
+    return distances
 
 
 def mean_point_to_sphere(distances: SphereDistances) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 
 from morphoskel.atomic import atomic_file
 from morphoskel.reporting.render import Image
-from morphoskel.shapes import FloatArray
+from morphoskel.shapes import FloatArray, IntArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,6 +22,9 @@ TEXT_WIDTH, COLUMN_WIDTH = 6.9, 3.3
 
 DISTANCE_MAP, RESIDUE_MAP, SIZE_MAP = "viridis", "cividis", "plasma"
 """Perceptually uniform colours of distances and radii, of residues, and of local feature sizes and weights."""
+
+PART_COLOURS = ("#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb")
+"""Tol's bright scheme, which people with any colour vision can tell apart; parts beyond its end begin anew."""
 
 STYLE: dict[Any, Any] = {
     "font.family": "sans-serif",
@@ -41,6 +44,9 @@ STYLE: dict[Any, Any] = {
     "pdf.fonttype": 42,  # letters stay letters in the PDF
 }
 DOTS_PER_INCH = 300
+
+BAR_SHARE, BAR_ASPECT = 0.75, 25.0
+"""Height of a colour bar, as a share of the axes beside it and in its widths."""
 
 
 @contextmanager
@@ -101,13 +107,29 @@ def paint(values: FloatArray, low: float, high: float, colour_map: str) -> Float
     return colours
 
 
+def paint_parts(parts: IntArray) -> FloatArray:
+    """Return the ``(N, 3)`` colours of parts, ``(N,)`` int64 numbers that begin at 0."""
+    from matplotlib.colors import to_rgb
+
+    palette: FloatArray = np.array([to_rgb(colour) for colour in PART_COLOURS])
+    return palette[parts % len(palette)]
+
+
 def add_scale(
-    figure: Figure, axes: Axes | Sequence[Axes], low: float, high: float, colour_map: str, label: str
+    figure: Figure,
+    axes: Axes | Sequence[Axes],
+    low: float,
+    high: float,
+    colour_map: str,
+    label: str,
+    *,
+    aspect: float = BAR_ASPECT,
 ) -> None:
-    """Add a colour bar beside axes."""
+    """Add a colour bar beside axes, `aspect` times as high as wide."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
-    bar = figure.colorbar(ScalarMappable(Normalize(low, high), colour_map), ax=axes, shrink=0.75, pad=0.01, aspect=25)
+    scale = ScalarMappable(Normalize(low, high), colour_map)
+    bar = figure.colorbar(scale, ax=axes, shrink=BAR_SHARE, pad=0.01, aspect=aspect)
     bar.set_label(label)
     bar.outline.set_visible(False)

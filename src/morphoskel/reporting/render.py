@@ -50,6 +50,10 @@ class View:
         return np.stack([right, np.cross(backward, right), backward])
 
 
+FROM_THE_FRONT = View(azimuth=235.0, elevation=22.0)
+"""Of the published data sets, whose shapes have y up and face negative z."""
+
+
 class Canvas:
     """A square picture to which opaque things are added in any order, then veils.
 

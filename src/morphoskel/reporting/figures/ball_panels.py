@@ -68,3 +68,20 @@ def draw_balls(
     if veil is not None:
         canvas.add_veil(veil)
     return canvas.image()
+
+
+def draw_in_surface(
+    surface: Mesh | str,
+    skeleton: Skeleton | str,
+    view: View,
+    bounds: npt.ArrayLike,
+    *,
+    largest: float | None = None,
+) -> Image | str:
+    """Draw the balls of a skeleton under the veil of its surface, see :func:`draw_balls`.
+
+    Without a surface there is no veil; the words in the place of a skeleton are returned as they are.
+    """
+    if isinstance(skeleton, str):
+        return skeleton
+    return draw_balls(skeleton, view, bounds, largest=largest, veil=None if isinstance(surface, str) else surface)

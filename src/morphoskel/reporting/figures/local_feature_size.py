@@ -9,12 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from morphoskel.reporting.contact_sheet import FROM_THE_FRONT
 from morphoskel.reporting.figure_page import SIZE_MAP, cropped, paint
 from morphoskel.reporting.figures.cloud_panels import draw_cloud
 from morphoskel.reporting.figures.panels import Row, Scale, draw_rows
 from morphoskel.reporting.figures.shown_shapes import choose_shapes
-from morphoskel.reporting.render import Image, View
+from morphoskel.reporting.render import FROM_THE_FRONT, Image, View
 from morphoskel.sampling.prior import PriorSettings, prior_weights
 from morphoskel.shapes import FloatArray
 

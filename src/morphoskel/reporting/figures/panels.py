@@ -5,17 +5,24 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 from morphoskel.errors import InputError
-from morphoskel.reporting.figure_page import TEXT_WIDTH, add_scale, figure_page
+from morphoskel.reporting.figure_page import BAR_ASPECT, BAR_SHARE, TEXT_WIDTH, add_scale, cropped, figure_page
 from morphoskel.reporting.render import Image
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-SCALE_WIDTH, NAME_WIDTH = 0.62, 0.2
-"""Inches of a colour bar with its numbers and label, and of the names of the rows."""
+SCALE_WIDTH, NAME_WIDTH, LEVEL_NAME_WIDTH = 0.62, 0.2, 0.64
+"""Inches of a colour bar with its numbers and label, and of the names of the rows, upwards and level."""
+
+LEVEL_LETTERS = 9
+"""Of a line of a name that is written level, unless a word is longer."""
+
+WIDEST_BAR = 0.13
+"""Inches of a colour bar, however high it is."""
 
 LINE_HEIGHT, ROW_GAP = 0.15, 0.06
 """Inches of a line of a title or note, and between rows."""
@@ -50,7 +57,7 @@ class Row:
     panels
         Pictures, or what to say where there is none.
     name
-        Written upwards at the left.
+        Written at the left.
     titles, notes
         Above and below the panels; none, or one a panel.
     scale
@@ -72,6 +79,7 @@ def draw_rows(
     width: float = TEXT_WIDTH,
     flattest: float = 0.3,
     tallest: float = 1.15,
+    level_names: bool = False,
 ) -> None:
     """Draw rows of panels below each other.
 
@@ -90,6 +98,8 @@ def draw_rows(
         Inches.
     flattest, tallest
         Bounds on the height of a panel, in widths; between them it is that of the tallest picture of the row.
+    level_names
+        Write the names of the rows level and in several lines, as suits long ones; else upwards.
 
     Raises
     ------
@@ -100,7 +110,8 @@ def draw_rows(
     if columns == 0:
         raise InputError("expected at least one shape to draw; the run has none for this figure")
     has_scale = scale is not None or any(row.scale for row in rows)
-    room = width - (SCALE_WIDTH if has_scale else 0) - (NAME_WIDTH if any(row.name for row in rows) else 0)
+    name_width = LEVEL_NAME_WIDTH if level_names else NAME_WIDTH
+    room = width - (SCALE_WIDTH if has_scale else 0) - (name_width if any(row.name for row in rows) else 0)
     ratios = [min(max([flattest, *_ratios(row)]), tallest) for row in rows]
     heights = [ratio * room / columns for ratio in ratios]
     text = sum(LINE_HEIGHT * (_lines(row.titles) + _lines(row.notes)) + ROW_GAP for row in rows)
@@ -108,15 +119,26 @@ def draw_rows(
         figure.set_layout_engine("constrained", w_pad=0.02, h_pad=0.02, wspace=0.02, hspace=0.0)
         grid = figure.subplots(len(rows), columns, squeeze=False, gridspec_kw={"height_ratios": heights})
         for row, ratio, of_row in zip(rows, ratios, grid, strict=True):
-            _draw_row(row, list(of_row), ratio)
+            _draw_row(row, list(of_row), ratio, level_names)
         if scale:
-            _add(scale, list(grid.flat))
+            # Beside many rows a bar of the usual shape would be too wide.
+            _add(scale, list(grid.flat), max(BAR_ASPECT, BAR_SHARE * sum(heights) / WIDEST_BAR))
 
 
-def _draw_row(row: Row, of_row: Sequence[Axes], ratio: float) -> None:
+def crop_alike(panels: Sequence[Image | str]) -> list[Image | str]:
+    """Crop the pictures among panels, see :func:`~morphoskel.reporting.figure_page.cropped`; words stay in place."""
+    pictures = iter(cropped([panel for panel in panels if not isinstance(panel, str)]))
+    return [panel if isinstance(panel, str) else next(pictures) for panel in panels]
+
+
+def _draw_row(row: Row, of_row: Sequence[Axes], ratio: float, level_name: bool) -> None:
     for axes in of_row:
         axes.set(xticks=[], yticks=[], frame_on=False)
-    of_row[0].set_ylabel(row.name)
+    if level_name:
+        name = "\n".join(wrap(row.name, LEVEL_LETTERS, break_long_words=False))
+        of_row[0].set_ylabel(name, rotation="horizontal", ha="right", va="center")
+    else:
+        of_row[0].set_ylabel(row.name)
     for axes, panel in zip(of_row, row.panels, strict=False):
         _fill(axes, panel, ratio)
     for axes, title in zip(of_row, row.titles, strict=False):
@@ -127,10 +149,10 @@ def _draw_row(row: Row, of_row: Sequence[Axes], ratio: float) -> None:
         _add(row.scale, of_row)
 
 
-def _add(scale: Scale, axes: Sequence[Axes]) -> None:
+def _add(scale: Scale, axes: Sequence[Axes], aspect: float = BAR_ASPECT) -> None:
     figure = axes[0].get_figure(root=True)
     if figure is not None:
-        add_scale(figure, axes, scale.low, scale.high, scale.colour_map, scale.label)
+        add_scale(figure, axes, scale.low, scale.high, scale.colour_map, scale.label, aspect=aspect)
 
 
 def _fill(axes: Axes, panel: Image | str, ratio: float) -> None:

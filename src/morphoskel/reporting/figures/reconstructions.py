@@ -6,13 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from morphoskel.reporting.contact_sheet import FROM_THE_FRONT
-from morphoskel.reporting.figure_page import cropped
-from morphoskel.reporting.figures.ball_panels import RADIUS_SCALE, draw_balls, joint_bounds
-from morphoskel.reporting.figures.panels import Row, draw_rows
+from morphoskel.reporting.figures.ball_panels import RADIUS_SCALE, draw_in_surface, joint_bounds
+from morphoskel.reporting.figures.panels import Row, crop_alike, draw_rows
 from morphoskel.reporting.figures.shown_shapes import choose_records, find_skeleton, find_surface
 from morphoskel.reporting.names import surface_name
-from morphoskel.reporting.render import Canvas, Image, View, ball_bounds
+from morphoskel.reporting.render import FROM_THE_FRONT, Canvas, Image, View, ball_bounds
 from morphoskel.shapes import FloatArray, Mesh, Skeleton
 
 LARGE = replace(FROM_THE_FRONT, pixels=560)
@@ -72,23 +70,20 @@ def _draw(rebuilt: Sequence[Rebuilt], view: View) -> tuple[list[Image | str], li
     found = [skeleton for each in rebuilt if not isinstance(skeleton := each.skeleton, str)]
     boxes: list[FloatArray] = [ball_bounds(skeleton) for skeleton in found]
     boxes += [joint_bounds([surface.bounds]) for each in rebuilt if not isinstance(surface := each.surface, str)]
+    if not boxes:
+        return [str(each.surface) for each in rebuilt], [str(each.skeleton) for each in rebuilt]
     largest = max((float(skeleton.radii.max()) for skeleton in found), default=1.0)
+    bounds = joint_bounds(boxes)
     panels: list[Image | str] = [
-        each.surface if isinstance(each.surface, str) else _surface(each.surface, view, boxes) for each in rebuilt
+        each.surface if isinstance(each.surface, str) else _surface(each.surface, view, bounds) for each in rebuilt
     ]
-    for each in rebuilt:
-        if isinstance(each.skeleton, str):
-            panels.append(each.skeleton)
-            continue
-        veil = None if isinstance(each.surface, str) else each.surface
-        panels.append(draw_balls(each.skeleton, view, joint_bounds(boxes), largest=largest, veil=veil))
-    pictures = iter(cropped([panel for panel in panels if not isinstance(panel, str)]))
-    shown = [panel if isinstance(panel, str) else next(pictures) for panel in panels]
+    panels += [draw_in_surface(each.surface, each.skeleton, view, bounds, largest=largest) for each in rebuilt]
+    shown = crop_alike(panels)
     return shown[: len(rebuilt)], shown[len(rebuilt) :]
 
 
-def _surface(mesh: Mesh, view: View, boxes: Sequence[FloatArray]) -> Image:
-    canvas = Canvas(view, joint_bounds(boxes))
+def _surface(mesh: Mesh, view: View, bounds: FloatArray) -> Image:
+    canvas = Canvas(view, bounds)
     canvas.add_mesh(mesh)
     return canvas.image()
 

@@ -9,11 +9,10 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from morphoskel.reporting.contact_sheet import FROM_THE_FRONT
 from morphoskel.reporting.figure_page import SIZE_MAP, cropped, paint
 from morphoskel.reporting.figures.panels import Row, Scale, draw_rows
 from morphoskel.reporting.figures.shown_shapes import NOT_THERE, choose_shapes
-from morphoskel.reporting.render import Canvas, Image, View
+from morphoskel.reporting.render import FROM_THE_FRONT, Canvas, Image, View
 from morphoskel.reporting.sample_picture import nearness
 from morphoskel.reporting.sampling_names import SAMPLER_NAMES
 from morphoskel.sampling.choice import DRAWN, FIXED

@@ -11,12 +11,11 @@ import numpy as np
 
 from morphoskel.errors import InputError
 from morphoskel.evaluation.segmentation import shape_iou
-from morphoskel.reporting.contact_sheet import FROM_THE_FRONT, PART_COLOURS
-from morphoskel.reporting.figure_page import cropped
+from morphoskel.reporting.figure_page import cropped, paint_parts
 from morphoskel.reporting.figures.cloud_panels import draw_cloud
 from morphoskel.reporting.figures.panels import Row, draw_rows
 from morphoskel.reporting.figures.shown_shapes import choose_shapes
-from morphoskel.reporting.render import Image, View
+from morphoskel.reporting.render import FROM_THE_FRONT, Image, View
 from morphoskel.reporting.segmentation_names import FULL, STRATEGY_NAMES
 from morphoskel.shapes import FloatArray, IntArray
 
@@ -94,11 +93,8 @@ def _panels(shape: SegmentedShape, view: View) -> tuple[list[Image], list[str]]:
 
 def _colours(labels: IntArray, parts: IntArray) -> FloatArray:
     """Return the ``(N, 3)`` colour of each point: that of the place of its part in the category; black of another's."""
-    from matplotlib.colors import to_rgb
-
-    palette: FloatArray = np.array([to_rgb(colour) for colour in PART_COLOURS])
     places = np.searchsorted(parts, labels) % len(parts)
-    colours: FloatArray = palette[places % len(palette)]
+    colours = paint_parts(places)
     colours[parts[places] != labels] = 0
     return colours
 

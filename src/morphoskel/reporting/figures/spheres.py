@@ -7,12 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from morphoskel.reporting.contact_sheet import FROM_THE_FRONT
 from morphoskel.reporting.figure_page import cropped
 from morphoskel.reporting.figures.ball_panels import RADIUS_SCALE, draw_balls, joint_bounds
 from morphoskel.reporting.figures.panels import Row, draw_rows
 from morphoskel.reporting.figures.shown_shapes import choose_records, find_skeleton
-from morphoskel.reporting.render import Image, View, ball_bounds
+from morphoskel.reporting.render import FROM_THE_FRONT, Image, View, ball_bounds
 from morphoskel.shapes import PointCloud, Skeleton
 
 WANTED = ("earphone", "headphone", "lamp")
