@@ -43,13 +43,13 @@ def test_records_are_chosen_like_shapes(tmp_path):
 
 def test_results_are_found_in_any_shard_or_said_to_be_missing(tmp_path):
     folders = [
-        write_shard(tmp_path / "0", {"a": BALLS, "b": "occupancy"}),
+        write_shard(tmp_path / "0", {"a": BALLS, "b": "select_skeleton"}),
         write_shard(tmp_path / "1", {"c": ball(subdivisions=1)}),
         tmp_path / "absent",
     ]
     assert find_result(folders, "a") == tmp_path / "0" / "a.ply"
     assert len(find_skeleton(folders, "a")) == 2
-    assert find_skeleton(folders, "b") == find_surface(folders, "b") == "failed at\noccupancy"
+    assert find_skeleton(folders, "b") == find_surface(folders, "b") == "failed at\nselect\nskeleton"
     assert len(find_surface(folders, "c").triangles) == 80
     assert find_skeleton(folders, "d") == find_surface([], "a") == NOT_THERE
 

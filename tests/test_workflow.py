@@ -60,6 +60,11 @@ def planned(repository: Path, *words: str) -> set[str]:
     return set(re.findall(r"^(?:local)?rule (\w+):", detailed, re.MULTILINE)) - {"all"}
 
 
+def without_pictures(rules: set[str]) -> set[str]:
+    """Leave out figures, what is computed for them alone, and the report."""
+    return {rule for rule in rules if not rule.startswith("figure_")} - {"illustrate", "measure_scaling", "html_report"}
+
+
 def fingerprints(repository: Path, run_name: str = "smoke") -> dict[str, str]:
     folder = repository / "results" / run_name / "skeletons"
     return {path.name: hashlib.sha256(path.read_bytes()).hexdigest()
@@ -149,8 +154,11 @@ def test_a_second_run_has_nothing_to_do(smoke):
 
 def test_a_new_k_reruns_the_dilation_and_what_follows(smoke):
     rules = planned(smoke[0], "skeleton.k=10")
-    assert rules == {"dilation", "select_skeleton", "cover_skeleton", "evaluate_skeletons", "time_stages",
-                     "figure_skeletons", "figure_explanation", "write_config", *EVERY_TABLE,
+    assert {"figure_skeletons", "figure_explanation", "figure_dilation", "illustrate", "html_report"} <= rules
+    assert "figure_contact_sheet" not in rules
+    assert without_pictures(rules) == {
+                     "dilation", "select_skeleton", "cover_skeleton", "evaluate_skeletons", "time_stages",
+                     "write_config", *EVERY_TABLE,
                      "local_feature_size", "train_sampler", "choose_points", "evaluate_samples",
                      "choose_labelled_points", "train_segmentation", "evaluate_segmentation"}  # fmt: skip
 
@@ -210,7 +218,23 @@ def test_trainings_leave_logs_and_curves(smoke):
 
 
 def test_a_new_protocol_rewrites_the_tables_only(smoke):
-    assert planned(smoke[0], "protocol=released") == {"write_config", *EVERY_TABLE}
+    assert without_pictures(planned(smoke[0], "protocol=released")) == {"write_config", *EVERY_TABLE}
+
+
+def test_every_figure_is_a_png_and_a_pdf(smoke):
+    folder = smoke[0] / "results/smoke/figures"
+    drawn = {path.stem for path in folder.glob("*.png")}
+    assert {path.stem for path in folder.glob("*.pdf")} == drawn
+    assert {"overview", "rationale", "spheres", "samples", "segmentation", "accuracy", "scaling"} <= drawn
+    assert all((folder / f"{name}.png").stat().st_size > 10_000 for name in drawn)
+
+
+def test_the_page_shows_every_table_and_figure(smoke):
+    page = (smoke[0] / "results/smoke/report/index.html").read_text(encoding="utf-8")
+    assert len(page) < 15_000_000
+    assert str(smoke[0]) not in page
+    for path in [*smoke[0].glob("results/smoke/figures/*.png"), *smoke[0].glob("results/smoke/tables/*.csv")]:
+        assert path.stem in page
 
 
 def test_a_docstring_reruns_nothing(restored):

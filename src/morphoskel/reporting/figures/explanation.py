@@ -26,7 +26,7 @@ WANTED = ("mug", "guitar", "earphone", "chair", "airplane", "table")
 HEIGHT = 1.0
 """Of a panel, in widths; one for all rows, so that all pictures of a shape have one scale."""
 
-SCALE = Scale(0, 3, f"{DISTANCE_MAP}_r", "distance to its ball, % of the longest side")
+SCALE = Scale(0, 3, f"{DISTANCE_MAP}_r", "distance to its ball,\n% of the longest side")
 """Most points are near their ball; at the light end of the map their shading shows. The few points that are farther
 away than the scale reaches have its last colour."""
 

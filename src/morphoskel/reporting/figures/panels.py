@@ -133,7 +133,8 @@ def crop_alike(panels: Sequence[Image | str]) -> list[Image | str]:
 
 def _draw_row(row: Row, of_row: Sequence[Axes], ratio: float, level_name: bool) -> None:
     for axes in of_row:
-        axes.set(xticks=[], yticks=[], frame_on=False)
+        # In the middle of too wide a place, axes would mislead the layout about the room for the name of the row.
+        axes.set(xticks=[], yticks=[], frame_on=False, anchor="W")
     if level_name:
         name = "\n".join(wrap(row.name, LEVEL_LETTERS, break_long_words=False))
         of_row[0].set_ylabel(name, rotation="horizontal", ha="right", va="center")

@@ -59,7 +59,7 @@ def find_result(folders: Sequence[Path], shape: str) -> Path | str:
         rows = read_status(folder) if (folder / FILE_NAME).exists() else []
         for row in rows:
             if row.id == shape and row.status == "failed":
-                return f"failed at\n{row.stage}"
+                return "failed at\n" + row.stage.replace("_", "\n")
         if (folder / f"{shape}.ply").exists():
             return folder / f"{shape}.ply"
     return NOT_THERE

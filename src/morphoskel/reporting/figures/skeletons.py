@@ -15,7 +15,7 @@ from morphoskel.reporting.names import method_name
 from morphoskel.reporting.render import FROM_THE_FRONT, Image, View, ball_bounds
 from morphoskel.shapes import FloatArray, Mesh, Skeleton
 
-LARGE = replace(FROM_THE_FRONT, pixels=400)
+LARGE = replace(FROM_THE_FRONT, pixels=320)
 SHAPES = 8
 WANTED = ("airplane", "chair", "earphone", "guitar", "lamp", "mug", "table")
 """Categories shown first, if the data set has them: sheets, thin curves and thick parts."""
@@ -26,7 +26,7 @@ HEIGHT = 0.92
 REACH = 0.2
 """How far the pictures may reach beyond a shape, in its longest sides; one huge ball would leave a dot of the shape."""
 
-SCALE = replace(RADIUS_SCALE, label="ball radius, relative to the shape's largest (median of the rows)")
+SCALE = replace(RADIUS_SCALE, label="ball radius, relative to the\nlargest (median of the rows)")
 
 
 def draw_skeletons(
