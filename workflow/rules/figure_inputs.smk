@@ -1,4 +1,5 @@
 # What the rules of figures and of the report read: their paths, and the helpers that find them.
+from morphoskel.reporting.page.assets import assets_digest
 from morphoskel.reporting.sampling_names import SAMPLER_NAMES
 
 MANIFEST = f"resources/manifest/{CONFIG.dataset.name}.csv"

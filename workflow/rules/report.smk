@@ -34,5 +34,6 @@ rule html_report:
         ratio=CONFIG.sampling.ratios[0],
         split=CONFIG.evaluation.split,
         digest=code_digest("reporting.report_files"),
+        assets=assets_digest(),
     script:
         "../scripts/write_report.py"
