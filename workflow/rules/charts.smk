@@ -24,6 +24,7 @@ rule figure_distances:
         figure="distances",
         files={"table": f"{RESULTS}/tables/skeleton_reconstruction.csv"},
         values={"kind": "skeletons"},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.distances"),
     script:
         "../scripts/draw_figure.py"
@@ -47,6 +48,7 @@ use rule figure_distances as figure_surface_distances with:
         figure="distances",
         files={"table": f"{RESULTS}/tables/surface_reconstruction.csv"},
         values={"kind": "surfaces"},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.distances"),
 
 
@@ -77,6 +79,7 @@ use rule figure_distances as figure_stage_times with:
             "published_folder": str(Path(workflow.basedir) / "config/paper"),
         },
         values={},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.stage_times_files"),
 
 
@@ -98,6 +101,7 @@ use rule figure_distances as figure_scaling with:
         figure="scaling",
         files={"times": rules.measure_scaling.output[0]},
         values={},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.scaling"),
 
 
@@ -121,6 +125,7 @@ if samplers():
             figure="against_ratio",
             files=scores("object_classification", "skeleton_prior"),
             values={"metric": "oa", "cloud_points": CONFIG.sampling.points},
+            numbers=NUMBERS,
             digest=code_digest("reporting.figures.against_ratio"),
 
 
@@ -144,6 +149,7 @@ if samplers():
             figure="against_ratio",
             files=scores("point_cloud_retrieval"),
             values={"metric": "map", "cloud_points": CONFIG.sampling.points},
+            numbers=NUMBERS,
             digest=code_digest("reporting.figures.against_ratio"),
 
 
@@ -167,4 +173,5 @@ if strategies():
             figure="labels",
             files={"table": f"{RESULTS}/tables/part_segmentation.csv"},
             values={},
+            numbers=NUMBERS,
             digest=code_digest("reporting.figures.labels"),

@@ -18,6 +18,33 @@ MAIN_SURFACE = next(
 # With these a function opens the data set that the manifest lists.
 SHAPE_SOURCE = {"dataset": section("dataset"), "seed": CONFIG.seed}
 
+# What captions tell of, as text.
+NUMBERS = {
+    "dataset": CONFIG.dataset.name,
+    "split": CONFIG.evaluation.split,
+    "shapes": f"{SHAPES[CONFIG.evaluation.split]:,}",
+    "candidates": f"{CONFIG.skeleton.candidates.count:,}",
+    "k": CONFIG.skeleton.k,
+    "points": f"{CONFIG.skeleton.points:,}",
+    "cloud_points": f"{CONFIG.sampling.points:,}",
+    "draws": CONFIG.sampling.draws,
+    "seeds": CONFIG.sampling.seeds,
+    "timed": CONFIG.timing.shapes_per_category,
+    **{
+        name: f"{getattr(CONFIG.figures, name):,}"
+        for name in ("sparse", "dense", "rationale", "repeats")
+    },
+    "illustrated": f"{CONFIG.figures.candidates:,}",
+}
+if strategies():
+    NUMBERS |= {
+        "segmented": CONFIG.segmented.name,
+        "segmented_shapes": f"{ALL_SHAPES[CONFIG.segmented.name][CONFIG.evaluation.split]:,}",
+        "segmented_training": f"{sum(ALL_SHAPES[CONFIG.segmented.name][split] for split in part_splits()[0]):,}",
+        "segmented_points": f"{CONFIG.tasks.segmentation.points:,}",
+        "segmented_seeds": CONFIG.tasks.segmentation.seeds,
+    }
+
 
 def flat(files):
     """Return all paths in nested lists and mappings."""

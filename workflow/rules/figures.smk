@@ -24,6 +24,7 @@ rule figure_contact_sheet:
         figure="contact_sheet",
         files={"manifest": MANIFEST},
         values={**SHAPE_SOURCE, "split": CONFIG.evaluation.split},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.contact_sheet"),
     script:
         "../scripts/draw_figure.py"
@@ -47,6 +48,7 @@ use rule figure_contact_sheet as figure_skeleton_sheet with:
         figure="skeleton_sheet",
         files={"manifest": MANIFEST, **of_surface(MAIN_SURFACE)},
         values={"split": CONFIG.evaluation.split},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.skeleton_sheet"),
 
 
@@ -72,6 +74,7 @@ use rule figure_contact_sheet as figure_spheres with:
             "split": CONFIG.evaluation.split,
             "wanted": CONFIG.figures.shapes,
         },
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.spheres"),
 
 
@@ -103,6 +106,7 @@ use rule figure_contact_sheet as figure_skeletons with:
             "skeletons": gallery_skeletons(),
         },
         values={"split": CONFIG.evaluation.split},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.skeletons"),
 
 
@@ -134,6 +138,7 @@ use rule figure_contact_sheet as figure_reconstructions with:
             "skeletons": by_surface("skeletons"),
         },
         values={"split": CONFIG.evaluation.split, "wanted": CONFIG.figures.shapes},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.reconstructions"),
 
 
@@ -157,6 +162,7 @@ if len(CONFIG.skeleton.selection) > 1:
             figure="explanation",
             files={"manifest": MANIFEST, "skeletons": explained_skeletons()},
             values={**SHAPE_SOURCE, "split": CONFIG.evaluation.split},
+            numbers=NUMBERS,
             digest=code_digest("reporting.figures.explanation"),
 
 
@@ -184,6 +190,7 @@ if shown_priors():
                 "prior": section("sampling", "prior"),
                 "wanted": CONFIG.figures.shapes,
             },
+            numbers=NUMBERS,
             digest=code_digest("reporting.figures.local_feature_size"),
 
 
@@ -217,6 +224,7 @@ if shown_samples():
                 "priors": shown_priors(),
             },
             values={},
+            numbers=NUMBERS,
             digest=code_digest("reporting.figures.samples"),
 
 
@@ -240,4 +248,5 @@ if strategies():
             figure="segmentation",
             files=shown_segmenters(),
             values={},
+            numbers=NUMBERS,
             digest=code_digest("reporting.figures.segmentation"),

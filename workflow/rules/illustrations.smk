@@ -75,6 +75,7 @@ rule figure_overview:
         figure="overview",
         files={"illustration": illustration(OVERVIEW)},
         values={},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.overview"),
     script:
         "../scripts/draw_figure.py"
@@ -106,6 +107,7 @@ use rule figure_overview as figure_occupancy with:
             "many": illustration(OVERVIEW),
         },
         values={},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.occupancy"),
 
 
@@ -127,6 +129,7 @@ use rule figure_overview as figure_dilation with:
         figure="dilation",
         files={"illustration": illustration(OVERVIEW)},
         values={},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.dilation"),
 
 
@@ -148,6 +151,7 @@ use rule figure_overview as figure_residue with:
         figure="residue",
         files={"illustration": illustration(OVERVIEW)},
         values={},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.residue"),
 
 
@@ -177,6 +181,7 @@ use rule figure_overview as figure_candidates with:
             "many": illustration(OVERVIEW, count=CONFIG.figures.dense),
         },
         values={},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.candidates"),
 
 
@@ -198,4 +203,5 @@ use rule figure_overview as figure_rationale with:
         figure="rationale",
         files=rationale_illustrations(),
         values={},
+        numbers=NUMBERS,
         digest=code_digest("reporting.figures.rationale"),

@@ -29,6 +29,7 @@ rule html_report:
         **SHAPE_SOURCE,
         run=RESULTS,
         titles=every_figure(),
+        numbers=NUMBERS,
         scenes=scene_files(),
         candidates=section("skeleton", "candidates"),
         ratio=CONFIG.sampling.ratios[0],

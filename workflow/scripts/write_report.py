@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from jinja2 import Template
+
 from morphoskel.logs import log_to
 from morphoskel.reporting.page.embedded_figures import FigureSource
 from morphoskel.reporting.page.run_scenes import SceneSources
@@ -17,7 +19,7 @@ write_report(
     run_folder=Path(params.run),
     tables=as_paths(files.tables),
     figures=[
-        FigureSource(name, title, Path(caption).read_text(), Path(path))
+        FigureSource(name, title, Template(Path(caption).read_text()).render(snakemake=snakemake), Path(path))
         for (name, title), caption, path in zip(params.titles.items(), files.captions, files.figures, strict=True)
     ],
     scenes=SceneSources(
