@@ -236,7 +236,9 @@ def _trainer(name: str, epochs: int, folder: Path, accelerator: str, devices: in
 def _silence() -> None:
     """Keep warnings from the user that do not concern them."""
     # Lightning 2.6 calls a function of torch that torch 2.13 deprecates, warns of a folder of checkpoints that is not
-    # empty, which it never is when a training goes on, and would rather log an epoch's mean on every device.
+    # empty, which it never is when a training goes on, would rather log an epoch's mean on every device, and advises
+    # to start jobs by srun wherever that is installed.
     warnings.filterwarnings("ignore", r".*LeafSpec", FutureWarning)
     warnings.filterwarnings("ignore", r"Checkpoint directory .* exists and is not empty")
     warnings.filterwarnings("ignore", r"It is recommended to use `self.log\('validation_loss'")
+    warnings.filterwarnings("ignore", r"The `srun` command is available")
