@@ -52,7 +52,12 @@ def test_the_largest_ratio_at_which_there_is_something_to_compare():
 
 
 @pytest.mark.parametrize(
-    "frames", [{}, {"skeleton_reconstruction": table("cd_recon", MEAN_OVER_SHAPES, MS3D=0.1, DPC=math.nan)}]
+    "frames",
+    [
+        {},
+        {"skeleton_reconstruction": table("cd_recon", MEAN_OVER_SHAPES, MS3D=0.1, DPC=math.nan)},
+        {"object_classification": table("oa", "16", MS3D=math.nan)},
+    ],
 )
 def test_a_run_that_compares_nothing_says_so(frames):
     assert summarise(frames) == NOTHING

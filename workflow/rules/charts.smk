@@ -56,7 +56,7 @@ use rule figure_distances as figure_stage_times with:
     input:
         flat(
             {
-                "times": rules.table_processing_time.input.rows,
+                "times": list(map(str, rules.table_processing_time.input.rows)),
                 "published_folder": str(Path(workflow.basedir) / "config/paper"),
             }
         ),
@@ -75,7 +75,7 @@ use rule figure_distances as figure_stage_times with:
         figure="stage_times",
         module="stage_times_files",
         files={
-            "times": rules.table_processing_time.input.rows,
+            "times": list(map(str, rules.table_processing_time.input.rows)),
             "published_folder": str(Path(workflow.basedir) / "config/paper"),
         },
         values={},
@@ -85,7 +85,7 @@ use rule figure_distances as figure_stage_times with:
 
 use rule figure_distances as figure_scaling with:
     input:
-        flat({"times": rules.measure_scaling.output[0]}),
+        flat({"times": f"{RESULTS}/timing/scaling.csv"}),
     output:
         png=report(
             "<results>/figures/scaling.png",
@@ -99,7 +99,7 @@ use rule figure_distances as figure_scaling with:
         "<logs>/figure_scaling.log",
     params:
         figure="scaling",
-        files={"times": rules.measure_scaling.output[0]},
+        files={"times": f"{RESULTS}/timing/scaling.csv"},
         values={},
         numbers=NUMBERS,
         digest=code_digest("reporting.figures.scaling"),

@@ -111,9 +111,9 @@ def compare(frame: pd.DataFrame, metric: str, group: str, condition: str = "") -
         ``None`` if MS3D or all others lack a value.
     """
     rows = frame[(frame["metric"] == metric) & (frame["group"] == group) & frame["value"].notna()]
-    rows = rows[[rivals(method) == condition for method in rows["method"]]]
+    rows = rows[rows["method"].map(rivals) == condition]
     own = rows[rows["method"] == OURS + condition]
-    others = rows[[not method.startswith(OURS) for method in rows["method"]]]
+    others = rows[~rows["method"].str.startswith(OURS)]
     if own.empty or others.empty:
         return None
     kind = find_metric(metric)
