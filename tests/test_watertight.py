@@ -22,6 +22,15 @@ def test_result_is_closed_oriented_and_not_smaller(mesh):
     assert np.abs(np.array(after.bounds) - np.array(mesh.bounds)).max() < 0.06
 
 
+def test_the_result_lies_outside_by_half_as_much_with_four_times_as_many_cells():
+    few, many = (
+        np.linalg.norm(closed(ball(subdivisions=5), resolution=leaves).vertices, axis=1).mean() - 1
+        for leaves in (5000, 20_000)
+    )
+    assert many == pytest.approx(0.02, abs=0.002)
+    assert few / many == pytest.approx(2, rel=0.1)
+
+
 def test_an_open_sheet_becomes_a_thin_shell():
     """Stated in the docs: the inside of an open hemisphere is the gap between its two walls, not the bowl."""
     cloud = sphere_cloud(4000)
