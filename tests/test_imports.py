@@ -25,6 +25,7 @@ def imported_by(statement):
         "from morphoskel.config import compose; compose()",
         "import morphoskel.datasets.configured, morphoskel.provenance",
         "import morphoskel.chain.shard, morphoskel.chain.dilation",
+        "import snakemake_logger_plugin_morphoskel",
     ],
 )
 def test_light_modules_import_nothing_heavy(statement):

@@ -51,7 +51,8 @@ def test_splits_come_before_ids(entries):
     assert [record.id for record in build_manifest([later, earlier], shard_size=1)] == ["b", "a"]
 
 
-def test_a_progress_bar_changes_nothing(entries, capsys):
+def test_a_progress_bar_changes_nothing(entries, capsys, monkeypatch):
+    monkeypatch.setattr("morphoskel.progress.shows_bars", lambda: True)
     assert build_manifest(entries, shard_size=2, progress=True) == build_manifest(entries, shard_size=2)
     assert "checksums" in capsys.readouterr().err
 

@@ -5,7 +5,7 @@ import pytest
 from conftest import REPOSITORY
 
 from morphoskel.errors import MorphoSkelError
-from morphoskel.workflow_run import find_repository, release_stale_lock, snakemake_command
+from morphoskel.workflow_run import find_repository, release_stale_lock, snakemake_command, typed_command
 
 
 def test_overrides_reach_snakemake_as_one_list():
@@ -18,6 +18,12 @@ def test_overrides_reach_snakemake_as_one_list():
 def test_cores_are_chosen_only_when_the_user_does_not(option):
     assert "--cores" in snakemake_command([], [], ["-n"])
     assert "--cores" not in snakemake_command([], [], [option])
+
+
+def test_the_command_is_shown_as_a_shell_would_take_it():
+    typed = typed_command(["figure_residue"], ["surface=[poisson]"], ["--dry-run"])
+    assert typed == "morphoskel run figure_residue 'surface=[poisson]' -- --dry-run"
+    assert typed_command([], [], []) == "morphoskel run"
 
 
 def test_the_repository_is_found_from_below():

@@ -11,6 +11,7 @@ from typing import Any
 from morphoskel.config import Config
 from morphoskel.errors import ConfigError, InputError, MorphoSkelError
 from morphoskel.methods import MORPHOLOGICAL, SURFACE_METHODS, check_method
+from morphoskel.progress import track
 
 logger = logging.getLogger(__name__)
 
@@ -69,15 +70,13 @@ def skeletonize_files(
     ConfigError
         If the method or the reconstruction is not configured, or a network is missing or not needed.
     """
-    from tqdm import tqdm
-
     from morphoskel.run_method import check_network
 
     arguments = arguments_of(config, method, surface)
     check_network(method, network)
     files = name_outputs(inputs)
     result = BatchResult([], {})
-    for name, path in tqdm(files.items(), unit="shape", disable=not progress):
+    for name, path in track(files.items(), "skeletonize", show=progress):
         try:
             result.written.extend(_skeletonize_file(path, name, folder, {**arguments, "network": network}, plot=plot))
         except MorphoSkelError as error:

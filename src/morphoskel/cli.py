@@ -15,6 +15,7 @@ from morphoskel.commands.export_command import add_export, run_export
 from morphoskel.commands.subcommand import Subcommands, add_subcommand
 from morphoskel.commands.view_command import add_view, run_view
 from morphoskel.errors import MorphoSkelError
+from morphoskel.logs import BesideBars
 from morphoskel.methods import METHODS
 from morphoskel.sampling.samplers import SAMPLERS
 
@@ -105,7 +106,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parsed.words += later  # argparse gives up on positional words that come after an option
     if options and parsed.command != "run":
         _parser().error("options after -- are for `morphoskel run` only")
-    logging.basicConfig(level=logging.INFO, format="%(message)s", force=True)
+    logging.basicConfig(level=logging.INFO, format="%(message)s", handlers=[BesideBars(sys.stderr)], force=True)
     try:
         if parsed.command == "run":
             return _run(parsed, options)

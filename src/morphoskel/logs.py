@@ -1,9 +1,34 @@
-"""Where the messages of a workflow job go."""
+"""Where messages go: those of a workflow job, and those that are written beside progress bars."""
+
+from __future__ import annotations
 
 import logging
 import sys
 from pathlib import Path
 from types import TracebackType
+from typing import TextIO
+
+PROGRESS = "morphoskel.progress"
+"""The logger of :mod:`morphoskel.progress`."""
+
+
+class BesideBars(logging.StreamHandler[TextIO]):
+    """Write messages on lines of their own, above the progress bars that are drawn on the same terminal.
+
+    On a terminal it leaves out what :mod:`morphoskel.progress` reports, which the bars show there.
+    """
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Write a message."""
+        on_terminal = self.stream.isatty()
+        if on_terminal and record.name == PROGRESS:
+            return
+        tqdm = sys.modules.get("tqdm")  # not imported yet means that there is no bar
+        if on_terminal and tqdm is not None:
+            with tqdm.tqdm.external_write_mode(file=self.stream):
+                super().emit(record)
+        else:
+            super().emit(record)
 
 
 def log_to(path: str | Path) -> None:
@@ -15,7 +40,7 @@ def log_to(path: str | Path) -> None:
         The log file, replaced if it exists.
     """
     to_file = logging.FileHandler(path, mode="w")
-    to_screen = logging.StreamHandler(sys.stderr)
+    to_screen = BesideBars(sys.stderr)
     to_screen.setLevel(logging.WARNING)
     form = "%(asctime)s %(levelname)s %(name)s: %(message)s"
     logging.basicConfig(level=logging.INFO, format=form, handlers=[to_file, to_screen], force=True)

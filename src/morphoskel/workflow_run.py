@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import logging
+import os
+import shlex
 import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from morphoskel.config import Config, compose
+from morphoskel.config import compose
 from morphoskel.cores import available_cores
 from morphoskel.errors import MorphoSkelError
 
@@ -46,14 +48,17 @@ def run_workflow(
         If this is no copy of the repository, a run is at work in it already, or the configuration is wrong.
     """
     repository = find_repository(start or Path.cwd())
-    config = compose(overrides, repository / "config")
+    compose(overrides, repository / "config")
     release_stale_lock(repository)
     command = snakemake_command(targets, overrides, options)
-    code = subprocess.run(command, cwd=repository, check=False).returncode
-    if code == 0 and not {"-n", "--dry-run", "--dryrun"} & set(options):
-        for path in built_files(repository, config):
-            logger.info("%s", path.relative_to(repository))
-    return code
+    # The display of progress tells how to go on after a failure.
+    environment = {**os.environ, "MORPHOSKEL_COMMAND": typed_command(targets, overrides, options)}
+    return subprocess.run(command, cwd=repository, env=environment, check=False).returncode
+
+
+def typed_command(targets: Sequence[str], overrides: Sequence[str], options: Sequence[str]) -> str:
+    """Return what the user typed, to be shown to them."""
+    return shlex.join(["morphoskel", "run", *targets, *overrides, *(["--", *options] if options else [])])
 
 
 def snakemake_command(targets: Sequence[str], overrides: Sequence[str], options: Sequence[str]) -> list[str]:
@@ -116,9 +121,3 @@ def _running_snakemakes(repository: Path) -> list[int]:
         if is_snakemake and process.info["cwd"] == str(repository.resolve()):
             found.append(int(process.info["pid"]))
     return found
-
-
-def built_files(repository: Path, config: Config) -> list[Path]:
-    """Return what there is to look at in the results of a run: tables and figures."""
-    results = repository / "results" / config.run
-    return sorted(path for kind in ("tables", "figures") for path in (results / kind).glob("*") if path.is_file())

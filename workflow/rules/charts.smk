@@ -15,6 +15,8 @@ rule figure_distances:
         pdf="<results>/figures/distances.pdf",
     log:
         "<logs>/figure_distances.log",
+    benchmark:
+        "<benchmarks>/figure_distances.tsv"
     conda:
         "../../environment.yml"
     resources:
@@ -44,6 +46,8 @@ use rule figure_distances as figure_surface_distances with:
         pdf="<results>/figures/surface_distances.pdf",
     log:
         "<logs>/figure_surface_distances.log",
+    benchmark:
+        "<benchmarks>/figure_surface_distances.tsv"
     params:
         figure="distances",
         files={"table": f"{RESULTS}/tables/surface_reconstruction.csv"},
@@ -71,6 +75,8 @@ use rule figure_distances as figure_stage_times with:
         pdf="<results>/figures/stage_times.pdf",
     log:
         "<logs>/figure_stage_times.log",
+    benchmark:
+        "<benchmarks>/figure_stage_times.tsv"
     params:
         figure="stage_times",
         module="stage_times_files",
@@ -97,6 +103,8 @@ use rule figure_distances as figure_scaling with:
         pdf="<results>/figures/scaling.pdf",
     log:
         "<logs>/figure_scaling.log",
+    benchmark:
+        "<benchmarks>/figure_scaling.tsv"
     params:
         figure="scaling",
         files={"times": f"{RESULTS}/timing/scaling.csv"},
@@ -121,6 +129,8 @@ if samplers():
             pdf="<results>/figures/accuracy.pdf",
         log:
             "<logs>/figure_accuracy.log",
+        benchmark:
+            "<benchmarks>/figure_accuracy.tsv"
         params:
             figure="against_ratio",
             files=scores("object_classification", "skeleton_prior"),
@@ -145,6 +155,8 @@ if samplers():
             pdf="<results>/figures/retrieval.pdf",
         log:
             "<logs>/figure_retrieval.log",
+        benchmark:
+            "<benchmarks>/figure_retrieval.tsv"
         params:
             figure="against_ratio",
             files=scores("point_cloud_retrieval"),
@@ -169,6 +181,8 @@ if strategies():
             pdf="<results>/figures/labels.pdf",
         log:
             "<logs>/figure_labels.log",
+        benchmark:
+            "<benchmarks>/figure_labels.tsv"
         params:
             figure="labels",
             files={"table": f"{RESULTS}/tables/part_segmentation.csv"},

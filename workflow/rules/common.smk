@@ -140,8 +140,8 @@ TRAINER = {
     name: value for name, value in section("trainer").items() if name != "together"
 }
 
-# The wildcards of a training beside what is trained.
-TRAINING = "" if CONFIG.trainer.together else "/{ratio}/{seed}"
+# How logs and benchmarks of one training, or of all those of a job, are called.
+TRAINING = "all" if CONFIG.trainer.together else "{ratio}/{seed}"
 
 
 def of_one_job(pattern, **axes):

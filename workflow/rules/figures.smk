@@ -15,6 +15,8 @@ rule figure_contact_sheet:
         pdf="<results>/figures/contact_sheet.pdf",
     log:
         "<logs>/figure_contact_sheet.log",
+    benchmark:
+        "<benchmarks>/figure_contact_sheet.tsv"
     conda:
         "../../environment.yml"
     resources:
@@ -44,6 +46,8 @@ use rule figure_contact_sheet as figure_skeleton_sheet with:
         pdf="<results>/figures/skeleton_sheet.pdf",
     log:
         "<logs>/figure_skeleton_sheet.log",
+    benchmark:
+        "<benchmarks>/figure_skeleton_sheet.tsv"
     params:
         figure="skeleton_sheet",
         files={"manifest": MANIFEST, **of_surface(MAIN_SURFACE)},
@@ -66,6 +70,8 @@ use rule figure_contact_sheet as figure_spheres with:
         pdf="<results>/figures/spheres.pdf",
     log:
         "<logs>/figure_spheres.log",
+    benchmark:
+        "<benchmarks>/figure_spheres.tsv"
     params:
         figure="spheres",
         files={"manifest": MANIFEST, "skeletons": of_surface(MAIN_SURFACE)["skeletons"]},
@@ -98,6 +104,8 @@ use rule figure_contact_sheet as figure_skeletons with:
         pdf="<results>/figures/skeletons.pdf",
     log:
         "<logs>/figure_skeletons.log",
+    benchmark:
+        "<benchmarks>/figure_skeletons.tsv"
     params:
         figure="skeletons",
         files={
@@ -130,6 +138,8 @@ use rule figure_contact_sheet as figure_reconstructions with:
         pdf="<results>/figures/reconstructions.pdf",
     log:
         "<logs>/figure_reconstructions.log",
+    benchmark:
+        "<benchmarks>/figure_reconstructions.tsv"
     params:
         figure="reconstructions",
         files={
@@ -158,6 +168,8 @@ if len(CONFIG.skeleton.selection) > 1:
             pdf="<results>/figures/explanation.pdf",
         log:
             "<logs>/figure_explanation.log",
+        benchmark:
+            "<benchmarks>/figure_explanation.tsv"
         params:
             figure="explanation",
             files={"manifest": MANIFEST, "skeletons": explained_skeletons()},
@@ -182,6 +194,8 @@ if shown_priors():
             pdf="<results>/figures/size_map.pdf",
         log:
             "<logs>/figure_size_map.log",
+        benchmark:
+            "<benchmarks>/figure_size_map.tsv"
         params:
             figure="size_map",
             module="local_feature_size",
@@ -216,6 +230,8 @@ if shown_samples():
             pdf="<results>/figures/samples.pdf",
         log:
             "<logs>/figure_samples.log",
+        benchmark:
+            "<benchmarks>/figure_samples.tsv"
         params:
             figure="samples",
             files={
@@ -244,6 +260,8 @@ if strategies():
             pdf="<results>/figures/segmentation.pdf",
         log:
             "<logs>/figure_segmentation.log",
+        benchmark:
+            "<benchmarks>/figure_segmentation.tsv"
         params:
             figure="segmentation",
             files=shown_segmenters(),

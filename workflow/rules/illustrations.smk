@@ -66,6 +66,8 @@ rule figure_overview:
         pdf="<results>/figures/overview.pdf",
     log:
         "<logs>/figure_overview.log",
+    benchmark:
+        "<benchmarks>/figure_overview.tsv"
     conda:
         "../../environment.yml"
     resources:
@@ -100,6 +102,8 @@ use rule figure_overview as figure_occupancy with:
         pdf="<results>/figures/occupancy.pdf",
     log:
         "<logs>/figure_occupancy.log",
+    benchmark:
+        "<benchmarks>/figure_occupancy.tsv"
     params:
         figure="occupancy",
         files={
@@ -125,6 +129,8 @@ use rule figure_overview as figure_dilation with:
         pdf="<results>/figures/dilation.pdf",
     log:
         "<logs>/figure_dilation.log",
+    benchmark:
+        "<benchmarks>/figure_dilation.tsv"
     params:
         figure="dilation",
         files={"illustration": illustration(OVERVIEW)},
@@ -147,6 +153,8 @@ use rule figure_overview as figure_residue with:
         pdf="<results>/figures/residue.pdf",
     log:
         "<logs>/figure_residue.log",
+    benchmark:
+        "<benchmarks>/figure_residue.tsv"
     params:
         figure="residue",
         files={"illustration": illustration(OVERVIEW)},
@@ -174,6 +182,8 @@ use rule figure_overview as figure_candidates with:
         pdf="<results>/figures/candidates.pdf",
     log:
         "<logs>/figure_candidates.log",
+    benchmark:
+        "<benchmarks>/figure_candidates.tsv"
     params:
         figure="candidates",
         files={
@@ -199,6 +209,8 @@ use rule figure_overview as figure_rationale with:
         pdf="<results>/figures/rationale.pdf",
     log:
         "<logs>/figure_rationale.log",
+    benchmark:
+        "<benchmarks>/figure_rationale.tsv"
     params:
         figure="rationale",
         files=rationale_illustrations(),

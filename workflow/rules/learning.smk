@@ -103,9 +103,9 @@ rule train_sampler:
             seed=range(CONFIG.sampling.seeds),
         ),
     log:
-        f"<logs>/train_sampler/{{dataset}}/{{sampler}}{TRAINING}.log",
+        f"<logs>/train_sampler/{{dataset}}/{{sampler}}/{TRAINING}.log",
     benchmark:
-        f"<benchmarks>/train_sampler/{{dataset}}/{{sampler}}{TRAINING}.tsv"
+        f"<benchmarks>/train_sampler/{{dataset}}/{{sampler}}/{TRAINING}.tsv"
     conda:
         "../../environment.yml"
     threads: CONFIG.trainer.threads

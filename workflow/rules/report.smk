@@ -20,6 +20,8 @@ rule html_report:
         provenance="<results>/report/provenance.json",
     log:
         "<logs>/html_report.log",
+    benchmark:
+        "<benchmarks>/html_report.tsv"
     conda:
         "../../environment.yml"
     resources:
@@ -27,7 +29,6 @@ rule html_report:
         runtime=60,
     params:
         **SHAPE_SOURCE,
-        run=RESULTS,
         titles=every_figure(),
         numbers=NUMBERS,
         scenes=scene_files(),

@@ -35,9 +35,9 @@ if strategies():
                 seed=range(CONFIG.tasks.segmentation.seeds),
             ),
         log:
-            f"<logs>/train_segmentation/{{dataset}}/{{strategy}}{TRAINING}.log",
+            f"<logs>/train_segmentation/{{dataset}}/{{strategy}}/{TRAINING}.log",
         benchmark:
-            f"<benchmarks>/train_segmentation/{{dataset}}/{{strategy}}{TRAINING}.tsv"
+            f"<benchmarks>/train_segmentation/{{dataset}}/{{strategy}}/{TRAINING}.tsv"
         wildcard_constraints:
             strategy=f"(?!{EVERY_LABEL}/)[a-z0-9_]+",
         priority: EARLY

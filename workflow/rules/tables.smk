@@ -16,6 +16,8 @@ rule table_skeleton_reconstruction:
         ),
     log:
         "<logs>/table_skeleton_reconstruction.log",
+    benchmark:
+        "<benchmarks>/table_skeleton_reconstruction.tsv"
     conda:
         "../../environment.yml"
     resources:
@@ -44,6 +46,8 @@ rule table_surface_reconstruction:
         ),
     log:
         "<logs>/table_surface_reconstruction.log",
+    benchmark:
+        "<benchmarks>/table_surface_reconstruction.tsv"
     conda:
         "../../environment.yml"
     resources:
@@ -75,6 +79,8 @@ rule table_processing_time:
         ),
     log:
         "<logs>/table_processing_time.log",
+    benchmark:
+        "<benchmarks>/table_processing_time.tsv"
     conda:
         "../../environment.yml"
     resources:
@@ -102,6 +108,8 @@ rule table_object_classification:
         ),
     log:
         "<logs>/table_object_classification.log",
+    benchmark:
+        "<benchmarks>/table_object_classification.tsv"
     conda:
         "../../environment.yml"
     resources:
@@ -129,6 +137,8 @@ rule table_point_cloud_retrieval:
         ),
     log:
         "<logs>/table_point_cloud_retrieval.log",
+    benchmark:
+        "<benchmarks>/table_point_cloud_retrieval.tsv"
     conda:
         "../../environment.yml"
     resources:
@@ -156,6 +166,8 @@ rule table_skeleton_prior:
         ),
     log:
         "<logs>/table_skeleton_prior.log",
+    benchmark:
+        "<benchmarks>/table_skeleton_prior.tsv"
     conda:
         "../../environment.yml"
     resources:
@@ -182,6 +194,8 @@ rule table_part_segmentation:
         ),
     log:
         "<logs>/table_part_segmentation.log",
+    benchmark:
+        "<benchmarks>/table_part_segmentation.tsv"
     conda:
         "../../environment.yml"
     resources:

@@ -13,10 +13,11 @@ from morphoskel.run_provenance import write_provenance
 
 log_to(snakemake.log[0])
 params, files = snakemake.params, snakemake.input
+run_folder = Path(snakemake.output[0]).parents[1]
 write_provenance(Path(snakemake.output.provenance))
 write_report(
     Path(snakemake.output[0]),
-    run_folder=Path(params.run),
+    run_folder=run_folder,
     tables=as_paths(files.tables),
     figures=[
         FigureSource(name, title, Template(Path(caption).read_text()).render(snakemake=snakemake), Path(path))
@@ -30,7 +31,7 @@ write_report(
         candidates=params.candidates,
         ratio=params.ratio,
     ),
-    config=Path(params.run) / "config.yaml",
+    config=run_folder / "config.yaml",
     provenance=Path(snakemake.output.provenance),
     manifests=as_paths(files.manifests),
 )

@@ -14,6 +14,7 @@ from morphoskel.chain.task import Details, Task
 from morphoskel.cores import split_cores
 from morphoskel.datasets.manifest import ShapeRecord, read_manifest
 from morphoskel.pool import Outcome, run_isolated
+from morphoskel.progress import track
 from morphoskel.seeds import derive_seed
 
 logger = logging.getLogger(__name__)
@@ -79,7 +80,8 @@ def run_shard(
             record.id: Task(record, inputs, folder, settings, derive_seed(seed, record.id, stage), threads)
             for record in waiting
         }
-        for outcome in run_isolated(module.run, tasks, workers=workers, preload=preload):
+        outcomes = run_isolated(module.run, tasks, workers=workers, preload=preload)
+        for outcome in track(outcomes, stage, total=len(tasks)):
             rows[outcome.key] = _status(records[outcome.key], stage, outcome, before.get(outcome.key, 0.0))
             logger.info("%d/%d %s", len(rows), len(records), _describe(rows[outcome.key]))
         write_status(folder, rows.values())

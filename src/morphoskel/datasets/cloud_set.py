@@ -16,6 +16,7 @@ from morphoskel.atomic import atomic_file
 from morphoskel.datasets.configured import open_configured
 from morphoskel.datasets.manifest import read_manifest
 from morphoskel.errors import InputError, ShapeError
+from morphoskel.progress import track
 from morphoskel.seeds import derive_generator
 from morphoskel.shapes import FloatArray, IntArray, PointCloud
 
@@ -146,14 +147,12 @@ def gather_clouds(
     ShapeError
         If a cloud has too few points, or no part labels though the data set has parts, naming it.
     """
-    from tqdm import tqdm
-
     source = open_configured(dataset, seed=seed)
     part_labels = getattr(source, "part_labels", None)
     class_names = np.array(sorted({record.category for record in read_manifest(manifest)}))
     records = read_manifest(manifest, split=split)
     normalised, parts = [], []
-    for record in tqdm(records, unit="cloud", desc=f"read {split}", disable=not progress):
+    for record in track(records, f"read {split}", unit="cloud", show=progress):
         try:
             cloud = source.load(record.path)
             generator = derive_generator(seed, record.id, "network points")

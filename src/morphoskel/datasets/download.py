@@ -8,16 +8,15 @@ import re
 import time
 import urllib.error
 import urllib.request
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
 from urllib.parse import urlsplit
 
 from morphoskel.datasets.extract import extract
 from morphoskel.datasets.manifest import checksum
 from morphoskel.errors import DatasetError
-
-if TYPE_CHECKING:
-    from tqdm import tqdm
+from morphoskel.progress import count_up
 
 __all__ = ["download", "extract"]
 
@@ -64,14 +63,19 @@ def download(
     expected = sha256.lower() if sha256 else None
     unverified = target.with_name(f"{target.name}.unverified")
     if target.is_file() and expected:
-        _require_sum(target, checksum(target), expected, "delete the file to fetch it again, or correct sha256")
+        _require_sum(
+            target,
+            checksum(target, progress=progress),
+            expected,
+            "delete the file to fetch it again, or correct sha256",
+        )
         return
     if not unverified.is_file():
         partial = target.with_name(f"{target.name}.partial")
         target.parent.mkdir(parents=True, exist_ok=True)
         _fetch(url, partial, progress=progress, attempts=attempts, backoff=backoff)
         partial.replace(unverified)
-    found = checksum(unverified)
+    found = checksum(unverified, progress=progress)
     if expected is None:
         raise DatasetError(
             f"{unverified}: fetched from {url}, but no checksum is configured to compare it with. Its sha256 is "
@@ -145,10 +149,10 @@ def _transfer(url: str, partial: Path, progress: bool) -> None:
         have = have if resumed else 0  # a server without ranges sends all from the beginning
         length = response.headers.get("Content-Length")
         total = have + int(length) if length else None
-        with partial.open("ab" if resumed else "wb") as stream, _bar(partial, have, total, progress) as bar:
+        with partial.open("ab" if resumed else "wb") as stream, _counter(partial, have, total, progress) as advance:
             while block := response.read(_BLOCK):
                 stream.write(block)
-                bar.update(len(block))
+                advance(len(block))
     if total is not None and _size(partial) < total:
         raise _Dropped(f"the connection ended at {_size(partial)} of {total} bytes")
 
@@ -173,8 +177,8 @@ def _size(path: Path) -> int:
     return path.stat().st_size if path.is_file() else 0
 
 
-def _bar(partial: Path, have: int, total: int | None, progress: bool) -> tqdm[NoReturn]:
-    from tqdm import tqdm
-
+def _counter(
+    partial: Path, have: int, total: int | None, progress: bool
+) -> AbstractContextManager[Callable[[int], None]]:
     name = partial.name.removesuffix(".partial")
-    return tqdm(total=total, initial=have, desc=name, unit="B", unit_scale=True, disable=not progress)
+    return count_up(f"fetch {name}", unit="B", total=total, start=have, show=progress)

@@ -13,6 +13,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 
 from morphoskel.atomic import atomic_folder
 from morphoskel.errors import DatasetError
+from morphoskel.progress import track
 
 _BLOCK = 1 << 20
 _DAMAGE = (zipfile.BadZipFile, tarfile.TarError, gzip.BadGzipFile, EOFError, zlib.error, lzma.LZMAError)
@@ -63,16 +64,16 @@ def _extract_zip(archive: Path, folder: Path) -> None:
             _check_name(archive, member.filename)
             if stat.S_ISLNK(member.external_attr >> 16):
                 raise DatasetError(f"{archive}: member {member.filename!r} is a link, which is not unpacked")
-        opened.extractall(folder)
+        opened.extractall(folder, track(opened.infolist(), f"unpack {archive.name}", unit="file"))
 
 
 def _extract_tar(archive: Path, folder: Path) -> None:
     with tarfile.open(archive) as opened:
-        for member in opened.getmembers():
+        for member in track(opened, f"read {archive.name}", unit="file"):
             _check_name(archive, member.name)
         _check_end(archive, opened)
         # The filter refuses devices and links that lead outside, and drops owners and unusual permissions.
-        opened.extractall(folder, filter="data")
+        opened.extractall(folder, track(opened.getmembers(), f"unpack {archive.name}", unit="file"), filter="data")
 
 
 def _check_name(archive: Path, name: str) -> None:

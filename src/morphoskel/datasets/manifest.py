@@ -11,6 +11,7 @@ from pathlib import Path
 
 from morphoskel.atomic import atomic_file
 from morphoskel.errors import DatasetError
+from morphoskel.progress import count_up, track
 
 COLUMNS = ("id", "category", "split", "shard", "path", "sha256")
 """Columns of a manifest file, in order."""
@@ -96,7 +97,7 @@ def build_manifest(entries: Iterable[Entry], *, shard_size: int, progress: bool 
     _check_entries(ordered)
     records: list[ShapeRecord] = []
     position: dict[str, int] = {}
-    for entry in _with_progress(ordered, progress):
+    for entry in track(ordered, "checksums", show=progress):
         index = position.get(entry.split, 0)
         position[entry.split] = index + 1
         digest = checksum(entry.path, *entry.companions)
@@ -105,10 +106,17 @@ def build_manifest(entries: Iterable[Entry], *, shard_size: int, progress: bool 
     return records
 
 
-def checksum(*paths: Path) -> str:
+def checksum(*paths: Path, progress: bool = False) -> str:
     """Return the SHA-256 (hexadecimal) of the contents of `paths`, one after the other.
 
     It equals what ``cat FILES | sha256sum`` prints. The files are streamed, so their size does not matter.
+
+    Parameters
+    ----------
+    *paths
+        Files.
+    progress
+        Show how many bytes are done.
 
     Raises
     ------
@@ -118,9 +126,13 @@ def checksum(*paths: Path) -> str:
     digest = hashlib.sha256()
     for path in paths:
         try:
-            with path.open("rb") as stream:
+            with (
+                path.open("rb") as stream,
+                count_up(f"checksum of {path.name}", unit="B", total=path.stat().st_size, show=progress) as advance,
+            ):
                 while block := stream.read(_BLOCK):
                     digest.update(block)
+                    advance(len(block))
         except OSError as error:
             raise DatasetError(f"{path}: cannot be read ({error.strerror}); restore the file") from error
     return digest.hexdigest()
@@ -219,16 +231,6 @@ def _list_shards(shards: Sequence[tuple[str, int]]) -> str:
     splits = sorted({split for split, _ in shards})
     counted = (f"{split} (shards 0 to {max(number for name, number in shards if name == split)})" for split in splits)
     return ", ".join(counted) or "nothing"
-
-
-def _with_progress(entries: Sequence[Entry], progress: bool) -> Iterable[Entry]:
-    """Return `entries`, behind a progress bar if asked for."""
-    if not progress:
-        return entries
-    from tqdm import tqdm
-
-    bar: Iterable[Entry] = tqdm(entries, desc="checksums", unit="shape")
-    return bar
 
 
 def first_of_each_category(records: Iterable[ShapeRecord]) -> list[ShapeRecord]:

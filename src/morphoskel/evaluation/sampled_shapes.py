@@ -12,6 +12,7 @@ import numpy.typing as npt
 from morphoskel.atomic import atomic_file
 from morphoskel.evaluation.classification import classify
 from morphoskel.evaluation.retrieval import average_precisions
+from morphoskel.progress import track
 from morphoskel.sampling.choice import FIXED, Choice
 
 if TYPE_CHECKING:
@@ -70,13 +71,12 @@ def evaluate_choices(
         If a classifier knows other classes.
     """
     import pandas as pd
-    from tqdm import tqdm
 
     for classifier in classifiers.values():
         clouds.check_classes(classifier.class_names)
     cases = [(key, name) for key in choices for name in classifiers]
     of_shapes, of_draws = [], []
-    for (ratio, number, kind), name in tqdm(cases, unit="evaluation", desc=f"evaluate {sampler}"):
+    for (ratio, number, kind), name in track(cases, f"evaluate {sampler}", unit="evaluation"):
         choice = choices[ratio, number, kind]
         case = {"sampler": sampler, "ratio": ratio, "seed": number, "choice": kind, "classifier": name}
         draws = list(_judge(choice, clouds, classifiers[name]))

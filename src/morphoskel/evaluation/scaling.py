@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import pairwise, product
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from morphoskel.atomic import atomic_file
 from morphoskel.errors import InputError
 from morphoskel.morphology import dilation
+from morphoskel.progress import track
 from morphoskel.seeds import derive_seed
 from morphoskel.shapes import Mesh
 from morphoskel.volume import Candidates, SurfaceDistance, occupancy
@@ -65,15 +66,14 @@ def measure_scaling(
     _check(counts, repeats)
     _time_once(mesh, min(counts), k, derive_seed(seed, "scaling", "warm-up"), threads)
     rows: list[dict[str, object]] = []
-    for repeat in range(repeats):
-        for count in sorted(counts):
-            of_run = derive_seed(seed, "scaling", str(count), str(repeat))
-            inside, seconds = _time_once(mesh, count, k, of_run, threads)
-            rows += [
-                {"candidates": count, "repeat": repeat, "stage": stage, "seconds": seconds[stage], "inside": inside,
-                 "threads": threads}
-                for stage in SCALED_STAGES
-            ]  # fmt: skip
+    for repeat, count in track(list(product(range(repeats), sorted(counts))), "time stages", unit="measurement"):
+        of_run = derive_seed(seed, "scaling", str(count), str(repeat))
+        inside, seconds = _time_once(mesh, count, k, of_run, threads)
+        rows += [
+            {"candidates": count, "repeat": repeat, "stage": stage, "seconds": seconds[stage], "inside": inside,
+             "threads": threads}
+            for stage in SCALED_STAGES
+        ]  # fmt: skip
     return pd.DataFrame(rows, columns=list(SCALING_COLUMNS))
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from morphoskel.atomic import atomic_file
 from morphoskel.errors import InputError
+from morphoskel.progress import track
 from morphoskel.shapes import FloatArray, IntArray
 
 if TYPE_CHECKING:
@@ -140,7 +141,6 @@ def evaluate_segmentation_files(
         If files are missing or do not belong together.
     """
     import pandas as pd
-    from tqdm import tqdm
 
     from morphoskel.datasets.cloud_set import read_cloud_set
     from morphoskel.networks.part_segmentation import load_segmentation
@@ -153,7 +153,7 @@ def evaluate_segmentation_files(
     shapes = read_cloud_set(clouds)
     trained = [(read.lengths, read.points.shape[1]) for read in map(read_cloud_set, training_clouds)]
     frames = []
-    for path in tqdm(networks, unit="network", desc=f"segment, {strategy}"):
+    for path in track(networks, f"segment, {strategy}", unit="network"):
         ratio, number = _ratio_and_number(path)
         request = LabelRequest(ratio, number, label_sets, completed)
         labels = _mean_labels(trained, samples, request)

@@ -17,6 +17,7 @@ from morphoskel.errors import MorphoSkelError, ShapeError
 from morphoskel.evaluation.sphere_metrics import sphere_distances
 from morphoskel.formats import read_skeleton_ply
 from morphoskel.methods import RANKED
+from morphoskel.progress import track
 from morphoskel.seeds import derive_seed
 from morphoskel.shapes import FloatArray, Skeleton
 from morphoskel.skeleton.equal_count import bring_to_count
@@ -97,14 +98,13 @@ def evaluate_skeletons(
         If a shape of the split is in none of the folders.
     """
     import pandas as pd
-    from tqdm import tqdm
 
     source = open_configured(dataset, seed=seed)
     records = read_manifest(manifest, split=split)
     statuses = _statuses(folders, records)
     axis_statuses = _statuses(axes, records) if axes else {}
     rows = []
-    for record in tqdm(records, unit="shape", desc=f"evaluate {method} on {surface}"):
+    for record in track(records, f"evaluate {method} on {surface}"):
         status, folder = statuses[record.id]
         own: dict[str, Any] = {"id": record.id, "category": record.category, "surface": surface, "method": method}
         if status.status == "failed":

@@ -15,6 +15,7 @@ from morphoskel.datasets.manifest import ShapeRecord, read_manifest
 from morphoskel.errors import MorphoSkelError
 from morphoskel.morphology import dilation
 from morphoskel.morphology.residue import residue
+from morphoskel.progress import track
 from morphoskel.seeds import derive_seed
 from morphoskel.shapes import PointCloud
 from morphoskel.skeleton.coverage import coverage_skeleton, typical_radius
@@ -67,12 +68,11 @@ def time_stages(
         ``id, category, surface, stage, seconds, threads``; seconds are empty from the stage on that failed.
     """
     import pandas as pd
-    from tqdm import tqdm
 
     source = open_configured(sections["dataset"], seed=seed)
     chosen = _choose(read_manifest(manifest, split=split), shapes_per_category)
     rows = []
-    for number, record in enumerate(tqdm([chosen[0], *chosen], unit="shape", desc=f"time {surface}")):
+    for number, record in enumerate(track([chosen[0], *chosen], f"time {surface}")):
         seconds = _time_shape(source.load(record.path), record, surface, sections, seed, threads)
         if number > 0:
             rows += [

@@ -16,6 +16,7 @@ from lightning.pytorch.callbacks import Callback, Checkpoint, ModelCheckpoint
 from lightning.pytorch.loggers import TensorBoardLogger
 
 from morphoskel.atomic import atomic_file
+from morphoskel.progress import shows_bars
 from morphoskel.seeds import derive_seed
 
 logger = logging.getLogger(__name__)
@@ -196,7 +197,7 @@ def resumable_fit(
     devices
         Graphics cards, or processes on a processor, that share the batches of each epoch.
     progress
-        Whether to show a progress bar.
+        Whether to show a progress bar, if there is a terminal.
     """
     logging.getLogger("lightning.pytorch").setLevel(logging.WARNING)  # it advertises at level INFO
     checkpoints = folder / phase.name
@@ -228,7 +229,7 @@ def _trainer(name: str, epochs: int, folder: Path, accelerator: str, devices: in
         default_root_dir=folder,
         num_sanity_val_steps=0,
         reload_dataloaders_every_n_epochs=1,
-        enable_progress_bar=progress,
+        enable_progress_bar=progress and shows_bars(),
         enable_model_summary=False,
     )
 

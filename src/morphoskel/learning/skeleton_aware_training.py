@@ -14,6 +14,7 @@ from morphoskel.datasets.manifest import checksum
 from morphoskel.learning.hold_out import hold_out
 from morphoskel.learning.plain_values import as_tuples
 from morphoskel.networks.skeleton_aware_settings import SkeletonAwareSettings
+from morphoskel.progress import track
 from morphoskel.provenance import content_hash
 from morphoskel.sampling.prior import local_feature_size
 from morphoskel.sampling.prior_set import PriorSet
@@ -90,6 +91,8 @@ def predict_local_feature_sizes(clouds: Path, network: Path, *, threads: int = 1
     centres, _ = predict_skeleton(load_skeleton_aware(network), torch.from_numpy(shapes.points))
     distances = [
         local_feature_size(cloud.astype(np.float64), skeleton.astype(np.float64))
-        for cloud, skeleton in zip(shapes.points, centres.numpy(), strict=True)
+        for cloud, skeleton in track(
+            zip(shapes.points, centres.numpy(), strict=True), "local feature size", total=len(shapes)
+        )
     ]
     return PriorSet(shapes.ids, np.stack(distances).astype(np.float32), np.full(len(shapes), ""))

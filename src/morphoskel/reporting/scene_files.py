@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from morphoskel.errors import InputError
 from morphoskel.formats.skeleton_file import read_arrays, read_skeleton_or_shape
+from morphoskel.progress import track
 from morphoskel.reporting.scene import Layer, Scalar, Scene
 from morphoskel.reporting.scene_layers import cloud_layer, feature_size_scalar, mesh_layer, skeleton_layers
 from morphoskel.shapes import FloatArray, Mesh, PointCloud, Skeleton
@@ -72,7 +73,10 @@ def scenes_of_files(
         if any(path.resolve() == other.resolve() for group in groups.values() for other in group):
             raise InputError(f"{path}: named twice; name each file once")
         groups.setdefault(paths[0].stem if together else path.stem, []).append(path)
-    return [Scene(name, _layers(group), up=up, azimuth=azimuth, elevation=elevation) for name, group in groups.items()]
+    return [
+        Scene(name, _layers(group), up=up, azimuth=azimuth, elevation=elevation)
+        for name, group in track(groups.items(), "read", unit="scene")
+    ]
 
 
 def _layers(paths: Sequence[Path]) -> list[Layer]:

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from morphoskel.errors import InputError
+from morphoskel.progress import track
 from morphoskel.sampling.choice import ARGMAX, COMPLETED, DRAWN, FIXED, Choice
 from morphoskel.sampling.lfs import LfsSettings, lfs_points
 from morphoskel.sampling.matching import complete, match_and_complete
@@ -92,14 +93,12 @@ def choose_points(
     InputError
         If the network, the prior or the local feature sizes are missing or do not fit.
     """
-    from tqdm import tqdm
-
     check_sampler(request.sampler)
     if request.samples > clouds.points.shape[1]:
         raise InputError(f"samples: {request.samples} of {clouds.points.shape[1]} points cannot be chosen")
     chosen = _choices(request, clouds, network, weights, (sizes, lfs))
     found: dict[str, list[Choice]] = {}
-    shapes = tqdm(chosen, total=len(clouds), unit="cloud", desc=request.sampler, disable=not progress)
+    shapes = track(chosen, f"choose, {request.sampler}", unit="cloud", total=len(clouds), show=progress)
     for of_shape in shapes:
         for kind, choice in of_shape.items():
             found.setdefault(kind, []).append(choice)

@@ -17,6 +17,7 @@ from morphoskel.chain.status import read_status
 from morphoskel.datasets.cloud_set import CloudSet
 from morphoskel.errors import InputError, ShapeError
 from morphoskel.formats import read_skeleton_ply
+from morphoskel.progress import track
 from morphoskel.sampling.prior import local_feature_size
 
 logger = logging.getLogger(__name__)
@@ -60,12 +61,10 @@ def measure_local_feature_sizes(clouds: CloudSet, folders: Sequence[Path], *, pr
     ShapeError
         If a shape of the split is in none of the folders.
     """
-    from tqdm import tqdm
-
     found = {row.id: (row, folder) for folder in folders for row in read_status(folder)}
     distances = np.full(clouds.points.shape[:2], np.nan, dtype=np.float32)
     reasons = []
-    for number, shape in enumerate(tqdm(clouds.ids, unit="shape", desc="local feature size", disable=not progress)):
+    for number, shape in enumerate(track(clouds.ids, "local feature size", show=progress)):
         if shape not in found:
             raise ShapeError(f"{shape}: is in none of the {len(folders)} skeleton folders; build the skeletons again")
         status, folder = found[shape]

@@ -14,6 +14,7 @@ from morphoskel.atomic import atomic_file
 from morphoskel.batch import BatchResult, arguments_of, name_outputs
 from morphoskel.config import Config
 from morphoskel.errors import ConfigError, InputError, MorphoSkelError
+from morphoskel.progress import track
 from morphoskel.sampling.lfs import LfsSettings
 from morphoskel.sampling.prior import PriorSettings
 from morphoskel.sampling.sample_shape import SampledShape, ShapeSampler
@@ -94,13 +95,11 @@ def sample_files(
     ConfigError
         If the request contradicts itself, or names a sampler or a reconstruction that does not exist.
     """
-    from tqdm import tqdm
-
     sampler = prepare_sampler(config, request)
     files = name_outputs(inputs)
     _check_outputs(files, folder)
     result = BatchResult([], {})
-    for name, path in tqdm(files.items(), unit="shape", disable=not progress):
+    for name, path in track(files.items(), "choose points", show=progress):
         try:
             result.written.extend(_sample_file(path, name, folder, sampler, plot=request.plot))
         except MorphoSkelError as error:

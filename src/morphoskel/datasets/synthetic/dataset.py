@@ -15,6 +15,7 @@ from morphoskel.datasets.synthetic.catalogue import CATEGORIES, part_labels
 from morphoskel.datasets.synthetic.generate import check_point_count, generate_shape
 from morphoskel.errors import DatasetError, ShapeError
 from morphoskel.pool import run_isolated
+from morphoskel.progress import track
 
 if TYPE_CHECKING:
     from morphoskel.shapes import PointCloud
@@ -152,8 +153,6 @@ def write_shapes(dataset: SyntheticDataset, *, workers: int = 1, progress: bool 
     ShapeError
         If a shape cannot be built, which would be a defect of its builder.
     """
-    from tqdm import tqdm
-
     if workers < 1:
         raise DatasetError(f"workers: expected at least 1 process, got {workers}")
     entries = dataset.plan_shapes()
@@ -171,7 +170,7 @@ def write_shapes(dataset: SyntheticDataset, *, workers: int = 1, progress: bool 
             for category in dataset.categories:
                 (partial / kind / category).mkdir(parents=True)
         outcomes = run_isolated(_write_shape, tasks, workers=min(workers, len(tasks)), preload=[__name__])
-        for outcome in tqdm(outcomes, total=len(tasks), desc="generate", unit="shape", disable=not progress):
+        for outcome in track(outcomes, "generate", total=len(tasks), show=progress):
             if outcome.reason:
                 raise ShapeError(f"{outcome.key}: could not be built: {outcome.reason}")
         text = json.dumps(dataset._description(), indent=2)

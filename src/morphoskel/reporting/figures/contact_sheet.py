@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from morphoskel.progress import track
 from morphoskel.reporting.figure_page import cropped, paint_parts
 from morphoskel.reporting.figures.cloud_panels import draw_cloud
 from morphoskel.reporting.figures.panels import Row, draw_rows
@@ -44,7 +45,7 @@ def draw_contact_sheet(
     columns = max(COLUMNS // max(longest, 1), 1) * longest
     panels: list[Image | str] = []
     titles: list[str] = []
-    for category, clouds in shapes.items():
+    for category, clouds in track(shapes.items(), "contact sheet", unit="row"):
         # Shapes of the same category show their parts in the same colours.
         first_part = min((int(_parts(cloud).min()) for cloud in clouds), default=0)
         for cloud in clouds:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from morphoskel.progress import track
 from morphoskel.reporting.figures.ball_panels import RADIUS_SCALE, draw_in_surface, joint_bounds
 from morphoskel.reporting.figures.panels import Row, crop_alike, draw_rows
 from morphoskel.reporting.figures.shown_shapes import choose_records, find_skeleton, find_surface
@@ -58,7 +59,7 @@ def draw_reconstructions(
         If there is no shape.
     """
     rows: list[Row] = []
-    for name, of_shape in shapes.items():
+    for name, of_shape in track(shapes.items(), "reconstructions"):
         surfaces, balls = _draw(list(of_shape.values()), view)
         rows.append(Row(surfaces, name=name, titles=() if rows else list(of_shape)))
         rows.append(Row(balls))

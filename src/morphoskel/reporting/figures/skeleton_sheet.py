@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from morphoskel.progress import track
 from morphoskel.reporting.figure_page import cropped
 from morphoskel.reporting.figures.ball_panels import RADIUS_SCALE, draw_balls, joint_bounds
 from morphoskel.reporting.figures.panels import Row, draw_rows
@@ -37,7 +38,7 @@ def draw_skeleton_sheet(
     InputError
         If there is no shape.
     """
-    panels = [_draw(surface, skeleton, view) for surface, skeleton in shapes.values()]
+    panels = [_draw(surface, skeleton, view) for surface, skeleton in track(shapes.values(), "sheet of skeletons")]
     titles = list(shapes)
     rows = -(-len(panels) // MOST_COLUMNS)
     columns = -(-len(panels) // max(rows, 1))

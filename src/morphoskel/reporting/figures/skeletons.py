@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from morphoskel.progress import track
 from morphoskel.reporting.figures.ball_panels import RADIUS_SCALE, draw_in_surface, joint_bounds
 from morphoskel.reporting.figures.panels import Row, crop_alike, draw_rows
 from morphoskel.reporting.figures.shown_shapes import NOT_THERE, choose_records, find_skeleton, find_surface
@@ -52,7 +53,7 @@ def draw_skeletons(
     InputError
         If there is no shape.
     """
-    columns = [_draw(list(of_shape.values()), view) for of_shape in shapes.values()]
+    columns = [_draw(list(of_shape.values()), view) for of_shape in track(shapes.values(), "skeletons")]
     names = next(iter(shapes.values()), {})
     rows = [
         Row([column[number] for column in columns], name=name, titles=() if number else list(shapes))

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from morphoskel.progress import track
 from morphoskel.reporting.figure_page import cropped
 from morphoskel.reporting.figures.ball_panels import RADIUS_SCALE, draw_balls, joint_bounds
 from morphoskel.reporting.figures.panels import Row, draw_rows
@@ -42,7 +43,7 @@ def draw_spheres(
     """
     names = list(shapes)
     panels: list[Image | str] = []
-    for cloud, skeleton in shapes.values():
+    for cloud, skeleton in track(shapes.values(), "spheres"):
         if isinstance(skeleton, str):
             panels.append(skeleton)
             continue

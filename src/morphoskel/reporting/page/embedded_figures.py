@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from morphoskel.errors import InputError
+from morphoskel.progress import track
 from morphoskel.reporting.page.assets import data_uri
 
 if TYPE_CHECKING:
@@ -95,7 +96,7 @@ def embed_figures(sources: Sequence[FigureSource]) -> list[EmbeddedFigure]:
         raise InputError(f"figures need names of their own, got {', '.join(names)}")
     most = min(MOST_BYTES, ALL_BYTES // max(len(sources), 1))
     figures = []
-    for source in sources:
+    for source in track(sources, "pictures of the page", unit="picture"):
         content, width, height = compress_picture(source.path, most)
         figures.append(EmbeddedFigure(source, data_uri(content, "image/webp"), width, height))
     return figures

@@ -19,6 +19,7 @@ from morphoskel.errors import InputError
 from morphoskel.formats import read_skeleton_ply
 from morphoskel.formats.read_mesh import read_mesh
 from morphoskel.morphology.residue import residue
+from morphoskel.progress import track
 from morphoskel.reporting.page.chosen_layers import chosen_layers
 from morphoskel.reporting.scene import Layer, Scalar, Scene
 from morphoskel.reporting.scene_encoding import encode_scenes
@@ -107,7 +108,7 @@ def run_scenes(sources: SceneSources) -> list[Scene]:
     step = -(-len(first) // MOST_SHAPES)
     scenes: list[Scene] = []
     used = 0
-    for record in first[::step]:
+    for record in track(first[::step], "shapes of the page"):
         scene = Scene(record.category, _layers(sources, record, homes), azimuth=AZIMUTH, elevation=ELEVATION)
         size = len(encode_scenes([scene]))
         if scenes and used + size > MOST_BYTES:
