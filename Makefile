@@ -9,7 +9,7 @@ ASSETS := src/morphoskel/reporting/assets
 THREE := 0.187.0
 ESBUILD := 0.28.2
 
-.PHONY: all test lint unit test-load bench format lock viewer help clean
+.PHONY: all test lint unit plan test-load bench format lock viewer help clean
 
 all: $(READY) ## every table and figure on the embedded data set (results/demo)
 	@$(BIN)/morphoskel run
@@ -25,6 +25,9 @@ lint: $(READY) ## format, lint and type checks alone
 
 unit: $(READY) ## tests alone; `make unit ARGS="-k dilation"` picks some
 	$(BIN)/pytest $(ARGS)
+
+plan: $(READY) ## what the published protocol will cost, or any: `make plan ARGS="experiment=demo --at-once 4"`
+	@$(BIN)/morphoskel plan $(or $(ARGS),experiment=paper)
 
 test-load: $(READY) ## as many shapes as ModelNet40 has through the chain, interrupted twice; goes on where it was (results/load)
 	$(BIN)/python -m tests.load $(ARGS)
