@@ -36,47 +36,63 @@ def test_normals_point_outward():
 def test_growth_is_found_under_noise_and_peaks():
     shapes, noise = np.linspace(0, 5000, 400), np.random.default_rng(0).normal(0, 2, 400)
     noise[::40] += 300
-    assert growth(shapes, 180 + noise) == pytest.approx(0, abs=0.3)
-    assert growth(shapes, 180 + 0.01 * shapes + noise) == pytest.approx(10, abs=0.3)
+    assert growth(shapes, 180 + noise, 1000) == pytest.approx(0, abs=0.3)
+    assert growth(shapes, 180 + 0.01 * shapes + noise, 1000) == pytest.approx(10, abs=0.3)
 
 
 def test_growth_while_warming_up_does_not_count():
     shapes = np.arange(1000.0)
-    assert growth(shapes, np.minimum(shapes, 200)) == 0
+    assert growth(shapes, np.minimum(shapes, 200), 100) == 0
 
 
 def test_a_short_series_says_nothing():
-    assert growth(np.arange(10.0), np.arange(10.0)) is None
+    assert growth(np.arange(10.0), np.arange(10.0), 1) is None
+    assert growth(np.arange(100.0), np.arange(100.0), 1000) is None
 
 
-def looks(slope):
-    """Return an hour of a main process and of two workers, of which the second one grows."""
+def looks(between=0.0, within=0.0):
+    """Return the looks at a main process and at ten workers, which grow from one to the next, or each in its life."""
     rows = [
         row
         for second in range(200)
         for row in (
             (second, 1, second, "snakemake", "", 1, 150.0),
-            (second, 1, second, "worker", "udf", 2, 90.0),
-            (second, 1, second, "worker", "udf", 3, 100.0 + slope * second),
+            (
+                second,
+                1,
+                second,
+                "worker",
+                "udf",
+                2 + second // 20,
+                100 + between * (second // 20) + within * (second % 20),
+            ),
         )
     ]
     return pd.DataFrame(rows, columns=["seconds", "attempt", "jobs", "role", "stage", "pid", "megabytes"])
 
 
-@pytest.mark.parametrize(("slope", "within"), [(0.0, True), (0.5, False)])
-def test_the_largest_worker_is_judged(slope, within):
-    main, worker, life = check_memory(looks(slope), Load(Path("load"), shapes=8000, shard_size=200))
-    assert main["mb_in_1000_shapes"] == 0
-    assert worker["series"] == "largest worker, udf"
-    assert life["series"] == "worker in its life, udf"
-    assert (worker["mb_in_1000_shapes"] <= worker["bound"]) is within
-    assert (life["mb_in_1000_shapes"] <= life["bound"]) is within
+@pytest.mark.parametrize(
+    ("grows", "missed"),
+    [
+        ({}, set()),
+        ({"between": 10.0}, {"largest worker, udf"}),
+        ({"within": 1.0}, {"worker in its life, udf"}),
+    ],
+)
+def test_workers_must_neither_grow_from_job_to_job_nor_in_their_life(grows, missed):
+    rows = check_memory(looks(**grows), Load(Path("load"), shapes=8000, shard_size=200))
+    assert [row["series"] for row in rows] == [
+        "main process, attempt 1",
+        "largest worker, udf",
+        "worker in its life, udf",
+    ]
+    assert {row["series"] for row in rows if row["mb_in_1000_shapes"] > row["bound"]} == missed
 
 
 def test_minutes_keep_the_largest_memory():
-    minutes = by_minute(looks(1.0))
+    minutes = by_minute(looks(within=1.0))
     workers = minutes[minutes["role"] == "worker"]
-    assert workers["largest_mb"].tolist() == [159, 219, 279, 299]
+    assert workers["largest_mb"].tolist() == [119, 119, 119, 119]
 
 
 def test_the_page_is_written_between_its_marks(tmp_path):
@@ -86,7 +102,7 @@ def test_the_page_is_written_between_its_marks(tmp_path):
                "survivors": 0}  # fmt: skip
     summary = {"date": "2025-03-25T00:00:00", "commit": None, "machine": {"cores": 2, "processor": "Fast One"},
                "shapes": 10, "shard_size": 8, "jobs": 6, "states": {"complete": 10}, "attempts": [attempt],
-               "memory": check_memory(looks(0.5), Load(tmp_path, 10, 8)), "missed": []}  # fmt: skip
+               "memory": check_memory(looks(), Load(tmp_path, 10, 8)), "missed": []}  # fmt: skip
     pd.Series(summary).to_json(tmp_path / "summary.json")
     write_page(tmp_path, page)
     text = page.read_text()

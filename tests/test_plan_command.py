@@ -12,15 +12,22 @@ from morphoskel.cli import main
 def test_the_published_protocol_is_planned_without_its_data(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(REPOSITORY)
     run = write_measured_run(tmp_path / "small")
-    words = ["skeletons", "experiment=paper", "watertight.resolution=20000", f"dataset.root={tmp_path}/absent"]
+    words = [
+        "skeletons",
+        "experiment=paper",
+        "surface=[poisson,ponq]",
+        "skeleton=[ms3d]",
+        "medial_axis.surface=poisson",
+    ]
+    words += ["shard_size=2048", f"dataset.root={tmp_path}/absent"]
     assert main(["plan", *words, "--measured", str(run), "--at-once", "2", "--json"]) == 0
     plan = json.loads(capsys.readouterr().out)
     rows = {(row["rule"], row["kind"]): row for row in plan["rows"]}
-    assert rows["reconstruct", "poisson"]["jobs"] == 24 + 5  # 5904 and 1184 shapes in shards of 256
+    assert rows["reconstruct", "poisson"]["jobs"] == 3 + 1  # 5904 and 1184 shapes in shards of 2048
     assert rows["reconstruct", "poisson"]["amount"] == 5904 + 1184
     assert rows["reconstruct", "poisson"]["core_hours_held"] == pytest.approx(7088 * 2 / 3600)  # 2 core-seconds a shape
     assert not rows["reconstruct", "ponq"]["measured"]
-    assert rows["udf", ""]["amount"] == 5 * 7088 * 10_000_000
+    assert rows["udf", ""]["amount"] == 2 * 7088 * 10_000_000
     assert plan["totals"]["bytes_removed"] > 0
     assert [wall["at_once"] for wall in plan["wall_hours"]] == [2]
 

@@ -5,7 +5,6 @@ from collections import Counter
 
 import numpy as np
 import pandas as pd
-from scipy.stats import theilslopes
 
 from morphoskel.chain.status import read_status
 from morphoskel.formats.skeleton_file import read_skeleton
@@ -18,7 +17,13 @@ WARM_UP = 0.25
 FEWEST = 20
 """Looks that a series must have after the warm-up to say anything about growth."""
 
-MAIN_BOUND = 1.0
+LEAST_RUN = 2000
+"""Shapes that a run must pass after the warm-up for its processes to be judged from job to job."""
+
+LEAST_LIFE = 100
+"""The same of a worker in its life."""
+
+MAIN_BOUND = 2.0
 """MB that Snakemake's main process may grow in 1,000 shapes. It remembers each finished job."""
 
 WORKER_BOUND = 2.0
@@ -31,16 +36,19 @@ MOST = 2000
 """Looks of a series that are compared with each other; of more, every second, third, ... one."""
 
 
-def growth(shapes, megabytes):
-    """Return the slope of a series after its warm-up in MB in 1,000 shapes, or None if it is too short.
+def growth(shapes, megabytes, least):
+    """Return the slope of a series after its warm-up in MB in 1,000 shapes, or None if it spans fewer than `least`.
 
     The slope is the median of the slopes between all pairs of looks (Theil and Sen), which single peaks do not move.
     """
     order = np.argsort(shapes, kind="stable")[int(len(shapes) * WARM_UP) :: 1 + len(shapes) // MOST]
     shapes, megabytes = np.asarray(shapes, float)[order], np.asarray(megabytes, float)[order]
-    if len(shapes) < FEWEST or np.ptp(shapes) == 0:
+    if len(shapes) < FEWEST or np.ptp(shapes) < least:
         return None
-    return float(theilslopes(megabytes, shapes)[0]) * 1000
+    earlier, later = np.triu_indices(len(shapes), 1)
+    apart = shapes[later] - shapes[earlier]
+    slopes = (megabytes[later] - megabytes[earlier])[apart > 0] / apart[apart > 0]
+    return float(np.median(slopes)) * 1000
 
 
 def check_memory(memory, load):
@@ -54,24 +62,31 @@ def check_memory(memory, load):
         Of which run. In the mean, ``load.shapes / load.jobs`` shapes pass all stages for each finished job.
     """
     memory = memory.assign(shapes=memory["jobs"] * load.shapes / load.jobs)
-    series = [(f"main process, attempt {attempt}", rows, MAIN_BOUND)
+    series = [(f"main process, attempt {attempt}", rows, MAIN_BOUND, LEAST_RUN)
               for attempt, rows in memory[memory["role"] == "snakemake"].groupby("attempt")]  # fmt: skip
     workers = memory[memory["role"] == "worker"]
     for stage, rows in workers.groupby("stage", sort=False):
-        largest = rows.groupby(["attempt", "seconds"], as_index=False).agg({"megabytes": "max", "shapes": "first"})
-        series.append((f"largest worker, {stage}", largest, WORKER_BOUND))
-        series.append((f"worker in its life, {stage}", _lives(rows, load.shard_size), LIFE_BOUND))
+        ordered = _in_order(rows, load.shapes)
+        largest = ordered.groupby(["attempt", "seconds"], as_index=False).agg({"megabytes": "max", "shapes": "max"})
+        series.append((f"largest worker, {stage}", largest, WORKER_BOUND, LEAST_RUN))
+        series.append((f"worker in its life, {stage}", _lives(rows, load.shard_size), LIFE_BOUND, LEAST_LIFE))
     return [
         {
             "series": name,
             "looks": len(rows),
             "median_mb": round(float(rows["megabytes"].median()), 1),
             "largest_mb": round(float(rows["megabytes"].max()), 1),
-            "mb_in_1000_shapes": growth(rows["shapes"].to_numpy(), rows["megabytes"].to_numpy()),
+            "mb_in_1000_shapes": growth(rows["shapes"], rows["megabytes"], least),
             "bound": bound,
         }
-        for name, rows, bound in series
+        for name, rows, bound, least in series
     ]
+
+
+def _in_order(rows, shapes):
+    """Return the looks at a stage's workers with the shapes that earlier ones had done, as a worker does one shard."""
+    order = rows.groupby(["attempt", "pid"], sort=False).ngroup()
+    return rows.assign(shapes=shapes * order / (order.max() + 1))
 
 
 def _lives(rows, shard_size):

@@ -31,7 +31,7 @@ def add_plan(commands: Subcommands) -> None:
     plan = add_subcommand(commands, "plan", "tell jobs, core-hours, disk and wall time of an experiment", EXAMPLES)
     plan.add_argument("words", nargs="*", metavar="TARGET | key=value", help="as of `morphoskel run`")
     plan.add_argument("--measured", type=Path, action="append", default=[], metavar="RUN",
-                      help="folder of a finished run, or a file of --save; of several, the first that fits counts")  # fmt: skip
+                      help="a finished run, or a file of --save; of several, the first that fits counts")  # fmt: skip
     plan.add_argument("--at-once", type=int, action="append", default=[], metavar="N",
                       help="jobs at a time, for the wall time; may be repeated (default: 1, 8, 64)")  # fmt: skip
     plan.add_argument("--cores", type=int, metavar="N",
