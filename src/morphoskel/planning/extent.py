@@ -38,10 +38,10 @@ class Extent:
             own = self.setting("tasks.segmentation.skeletons", {}) or {}
             if (value := own.get(OWN_FOR_PARTS[path])) is not None:
                 return value
-        value: Any = self.config
+        found: Any = self.config
         for key in path.split("."):
-            value = value.get(key) if isinstance(value, Mapping) else None
-        return value
+            found = found.get(key) if isinstance(found, Mapping) else None
+        return found
 
     def shapes(self, wildcards: Mapping[str, str], split: str | None = None) -> int:
         """Return the number of shapes of a job: those of its shard, of its split, or of the split given.
