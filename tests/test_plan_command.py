@@ -39,9 +39,9 @@ def test_measurements_outlive_their_run(tmp_path, monkeypatch):
     assert (tmp_path / "times.csv").read_text().count("small") == 3
 
 
-def test_a_run_that_is_none_is_told(tmp_path, monkeypatch, caplog):
+def test_a_run_that_is_none_is_told(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(REPOSITORY)
     assert main(["plan", "--measured", str(tmp_path)]) == 1
-    assert "name the folder of a finished run" in caplog.text
+    assert "name the folder of a finished run" in capsys.readouterr().err
     assert main(["plan", "--measured", str(tmp_path), "--at-once", "0"]) == 1
-    assert "must be at least 1" in caplog.text
+    assert "must be at least 1" in capsys.readouterr().err
