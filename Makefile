@@ -9,7 +9,7 @@ ASSETS := src/morphoskel/reporting/assets
 THREE := 0.187.0
 ESBUILD := 0.28.2
 
-.PHONY: all test lint unit bench format lock viewer help clean
+.PHONY: all test lint unit plan test-load bench format lock viewer help clean
 
 all: $(READY) ## every table and figure on the embedded data set (results/demo)
 	@$(BIN)/morphoskel run
@@ -25,6 +25,12 @@ lint: $(READY) ## format, lint and type checks alone
 
 unit: $(READY) ## tests alone; `make unit ARGS="-k dilation"` picks some
 	$(BIN)/pytest $(ARGS)
+
+plan: $(READY) ## what the published protocol will cost, or any: `make plan ARGS="experiment=demo --at-once 4"`
+	@$(BIN)/morphoskel plan $(or $(ARGS),experiment=paper)
+
+test-load: $(READY) ## as many shapes as ModelNet40 has through the chain, interrupted twice; goes on where it was (results/load)
+	$(BIN)/python -m tests.load $(ARGS)
 
 bench: $(READY) ## speed and memory beside the released computation; `make bench ARGS=scaling` picks one
 	$(BIN)/python -m benchmarks $(ARGS)
@@ -61,7 +67,7 @@ viewer: ## bundle the script of the interactive viewer anew, with the three.js a
 	cp node_modules/three/LICENSE "$(CURDIR)/$(ASSETS)/three.LICENSE"
 
 help: ## this list
-	@grep -hE '^[a-z]+:.*## ' Makefile | sed -E 's/^([a-z]+):.*## (.*)/  make \1|\2/' | column -t -s '|'
+	@grep -hE '^[a-z-]+:.*## ' Makefile | sed -E 's/^([a-z-]+):.*## (.*)/  make \1|\2/' | column -t -s '|'
 
 clean: ## remove the results and the generated data; keeps the environment, results/reference and downloads
 	@read -r -p "Remove results/* (but not results/reference) and resources/manifest, resources/data/synthetic*? [y/N] " answer; \

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from morphoskel import __version__
 from morphoskel.commands.compare_command import add_compare, run_compare
 from morphoskel.commands.export_command import add_export, run_export
+from morphoskel.commands.plan_command import add_plan, run_plan
 from morphoskel.commands.subcommand import Subcommands, add_subcommand
 from morphoskel.commands.view_command import add_view, run_view
 from morphoskel.errors import MorphoSkelError
@@ -111,7 +112,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if parsed.command == "run":
             return _run(parsed, options)
         actions = {"skeletonize": _skeletonize, "sample": _sample, "export": run_export, "compare": run_compare,
-                   "view": run_view, "config": _show_config}  # fmt: skip
+                   "plan": run_plan, "view": run_view, "config": _show_config}  # fmt: skip
         return actions[parsed.command](parsed)
     except MorphoSkelError as error:
         logger.error("morphoskel: %s", error)
@@ -144,7 +145,7 @@ def _parser() -> argparse.ArgumentParser:
     one.add_argument("--network", type=Path, metavar="PATH", help="file with a trained network, for point2skeleton")
     one.add_argument("--plot", action="store_true", help="also draw the balls, inside the surface if any, as PNG")
     _add_sample(commands)
-    for add in (add_export, add_compare, add_view):
+    for add in (add_export, add_compare, add_view, add_plan):
         add(commands)
     config = add_subcommand(commands, "config", "print the configuration that the overrides give", CONFIG_EXAMPLES)
     config.add_argument("words", nargs="*", metavar="key=value", help="overrides")
