@@ -26,7 +26,7 @@ rule figure_distances:
         figure="distances",
         files={"table": f"{RESULTS}/tables/skeleton_reconstruction.csv"},
         values={"kind": "skeletons"},
-        numbers=NUMBERS,
+        numbers=numbers("distances"),
         digest=code_digest("reporting.figures.distances"),
     script:
         "../scripts/draw_figure.py"
@@ -52,7 +52,7 @@ use rule figure_distances as figure_surface_distances with:
         figure="distances",
         files={"table": f"{RESULTS}/tables/surface_reconstruction.csv"},
         values={"kind": "surfaces"},
-        numbers=NUMBERS,
+        numbers=numbers("surface_distances"),
         digest=code_digest("reporting.figures.distances"),
 
 
@@ -85,7 +85,7 @@ use rule figure_distances as figure_stage_times with:
             "published_folder": str(Path(workflow.basedir) / "config/paper"),
         },
         values={},
-        numbers=NUMBERS,
+        numbers=numbers("stage_times"),
         digest=code_digest("reporting.figures.stage_times_files"),
 
 
@@ -109,7 +109,7 @@ use rule figure_distances as figure_scaling with:
         figure="scaling",
         files={"times": f"{RESULTS}/timing/scaling.csv"},
         values={},
-        numbers=NUMBERS,
+        numbers=numbers("scaling"),
         digest=code_digest("reporting.figures.scaling"),
 
 
@@ -135,7 +135,7 @@ if samplers():
             figure="against_ratio",
             files=scores("object_classification", "skeleton_prior"),
             values={"metric": "oa", "cloud_points": CONFIG.sampling.points},
-            numbers=NUMBERS,
+            numbers=numbers("accuracy"),
             digest=code_digest("reporting.figures.against_ratio"),
 
 
@@ -161,7 +161,7 @@ if samplers():
             figure="against_ratio",
             files=scores("point_cloud_retrieval"),
             values={"metric": "map", "cloud_points": CONFIG.sampling.points},
-            numbers=NUMBERS,
+            numbers=numbers("retrieval"),
             digest=code_digest("reporting.figures.against_ratio"),
 
 
@@ -187,5 +187,5 @@ if strategies():
             figure="labels",
             files={"table": f"{RESULTS}/tables/part_segmentation.csv"},
             values={},
-            numbers=NUMBERS,
+            numbers=numbers("labels"),
             digest=code_digest("reporting.figures.labels"),

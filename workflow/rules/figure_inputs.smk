@@ -46,6 +46,12 @@ if strategies():
     }
 
 
+def numbers(figure):
+    """Return those that the caption of a figure tells of; only if they change is it drawn anew."""
+    caption = Path(workflow.basedir, f"workflow/report/{figure}.rst").read_text()
+    return {name: NUMBERS[name] for name in re.findall(r"numbers\.(\w+)", caption)}
+
+
 def flat(files):
     """Return all paths in nested lists and mappings."""
     if isinstance(files, dict):

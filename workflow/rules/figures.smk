@@ -26,7 +26,7 @@ rule figure_contact_sheet:
         figure="contact_sheet",
         files={"manifest": MANIFEST},
         values={**SHAPE_SOURCE, "split": CONFIG.evaluation.split},
-        numbers=NUMBERS,
+        numbers=numbers("contact_sheet"),
         digest=code_digest("reporting.figures.contact_sheet"),
     script:
         "../scripts/draw_figure.py"
@@ -52,7 +52,7 @@ use rule figure_contact_sheet as figure_skeleton_sheet with:
         figure="skeleton_sheet",
         files={"manifest": MANIFEST, **of_surface(MAIN_SURFACE)},
         values={"split": CONFIG.evaluation.split},
-        numbers=NUMBERS,
+        numbers=numbers("skeleton_sheet"),
         digest=code_digest("reporting.figures.skeleton_sheet"),
 
 
@@ -80,7 +80,7 @@ use rule figure_contact_sheet as figure_spheres with:
             "split": CONFIG.evaluation.split,
             "wanted": CONFIG.figures.shapes,
         },
-        numbers=NUMBERS,
+        numbers=numbers("spheres"),
         digest=code_digest("reporting.figures.spheres"),
 
 
@@ -114,7 +114,7 @@ use rule figure_contact_sheet as figure_skeletons with:
             "skeletons": gallery_skeletons(),
         },
         values={"split": CONFIG.evaluation.split},
-        numbers=NUMBERS,
+        numbers=numbers("skeletons"),
         digest=code_digest("reporting.figures.skeletons"),
 
 
@@ -148,7 +148,7 @@ use rule figure_contact_sheet as figure_reconstructions with:
             "skeletons": by_surface("skeletons"),
         },
         values={"split": CONFIG.evaluation.split, "wanted": CONFIG.figures.shapes},
-        numbers=NUMBERS,
+        numbers=numbers("reconstructions"),
         digest=code_digest("reporting.figures.reconstructions"),
 
 
@@ -174,7 +174,7 @@ if len(CONFIG.skeleton.selection) > 1:
             figure="explanation",
             files={"manifest": MANIFEST, "skeletons": explained_skeletons()},
             values={**SHAPE_SOURCE, "split": CONFIG.evaluation.split},
-            numbers=NUMBERS,
+            numbers=numbers("explanation"),
             digest=code_digest("reporting.figures.explanation"),
 
 
@@ -204,7 +204,7 @@ if shown_priors():
                 "prior": section("sampling", "prior"),
                 "wanted": CONFIG.figures.shapes,
             },
-            numbers=NUMBERS,
+            numbers=numbers("size_map"),
             digest=code_digest("reporting.figures.local_feature_size"),
 
 
@@ -240,7 +240,7 @@ if shown_samples():
                 "priors": shown_priors(),
             },
             values={},
-            numbers=NUMBERS,
+            numbers=numbers("samples"),
             digest=code_digest("reporting.figures.samples"),
 
 
@@ -266,5 +266,5 @@ if strategies():
             figure="segmentation",
             files=shown_segmenters(),
             values={},
-            numbers=NUMBERS,
+            numbers=numbers("segmentation"),
             digest=code_digest("reporting.figures.segmentation"),

@@ -77,7 +77,7 @@ rule figure_overview:
         figure="overview",
         files={"illustration": illustration(OVERVIEW)},
         values={},
-        numbers=NUMBERS,
+        numbers=numbers("overview"),
         digest=code_digest("reporting.figures.overview"),
     script:
         "../scripts/draw_figure.py"
@@ -111,7 +111,7 @@ use rule figure_overview as figure_occupancy with:
             "many": illustration(OVERVIEW),
         },
         values={},
-        numbers=NUMBERS,
+        numbers=numbers("occupancy"),
         digest=code_digest("reporting.figures.occupancy"),
 
 
@@ -135,7 +135,7 @@ use rule figure_overview as figure_dilation with:
         figure="dilation",
         files={"illustration": illustration(OVERVIEW)},
         values={},
-        numbers=NUMBERS,
+        numbers=numbers("dilation"),
         digest=code_digest("reporting.figures.dilation"),
 
 
@@ -159,7 +159,7 @@ use rule figure_overview as figure_residue with:
         figure="residue",
         files={"illustration": illustration(OVERVIEW)},
         values={},
-        numbers=NUMBERS,
+        numbers=numbers("residue"),
         digest=code_digest("reporting.figures.residue"),
 
 
@@ -191,7 +191,7 @@ use rule figure_overview as figure_candidates with:
             "many": illustration(OVERVIEW, count=CONFIG.figures.dense),
         },
         values={},
-        numbers=NUMBERS,
+        numbers=numbers("candidates"),
         digest=code_digest("reporting.figures.candidates"),
 
 
@@ -215,5 +215,5 @@ use rule figure_overview as figure_rationale with:
         figure="rationale",
         files=rationale_illustrations(),
         values={},
-        numbers=NUMBERS,
+        numbers=numbers("rationale"),
         digest=code_digest("reporting.figures.rationale"),
