@@ -9,7 +9,7 @@ ASSETS := src/morphoskel/reporting/assets
 THREE := 0.187.0
 ESBUILD := 0.28.2
 
-.PHONY: all test lint unit bench format lock viewer help clean
+.PHONY: all test lint unit test-faults bench format lock viewer help clean
 
 all: $(READY) ## every table and figure on the embedded data set (results/demo)
 	@$(BIN)/morphoskel run
@@ -25,6 +25,9 @@ lint: $(READY) ## format, lint and type checks alone
 
 unit: $(READY) ## tests alone; `make unit ARGS="-k dilation"` picks some
 	$(BIN)/pytest $(ARGS)
+
+test-faults: $(READY) ## runs that are killed, damaged and starved of disk, and what a rerun makes of them (some as root only)
+	$(BIN)/pytest -m "faults or not faults" tests/faults $(ARGS)
 
 bench: $(READY) ## speed and memory beside the released computation; `make bench ARGS=scaling` picks one
 	$(BIN)/python -m benchmarks $(ARGS)

@@ -12,6 +12,7 @@ import torch
 from torch import nn
 
 from morphoskel.atomic import atomic_file
+from morphoskel.checksums import intact_archive
 from morphoskel.errors import ConfigError, InputError
 
 
@@ -38,7 +39,7 @@ def read_network(path: Path | str, what: str) -> Iterator[dict[str, Any]]:
         If the file is missing, or no such network can be built from it.
     """
     try:
-        yield torch.load(path, map_location="cpu", weights_only=True)
+        yield torch.load(intact_archive(Path(path)), map_location="cpu", weights_only=True)
     except FileNotFoundError as error:
         raise InputError(f"{path}: no trained {what} there; train one first") from error
     except (RuntimeError, KeyError, TypeError, EOFError, pickle.UnpicklingError, ConfigError) as error:
