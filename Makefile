@@ -64,7 +64,7 @@ viewer: ## bundle the script of the interactive viewer anew, with the three.js a
 	cp node_modules/three/LICENSE "$(CURDIR)/$(ASSETS)/three.LICENSE"
 
 help: ## this list
-	@grep -hE '^[a-z]+:.*## ' Makefile | sed -E 's/^([a-z]+):.*## (.*)/  make \1|\2/' | column -t -s '|'
+	@grep -hE '^[a-z-]+:.*## ' Makefile | sed -E 's/^([a-z-]+):.*## (.*)/  make \1|\2/' | column -t -s '|'
 
 clean: ## remove the results and the generated data; keeps the environment, results/reference and downloads
 	@read -r -p "Remove results/* (but not results/reference) and resources/manifest, resources/data/synthetic*? [y/N] " answer; \

@@ -120,8 +120,7 @@ def test_a_damaged_record_of_a_shard_is_refused(undisturbed, tmp_path, name, how
     shutil.copytree(undisturbed / "reconstruct" / "0", folder)
     DAMAGE[how](folder / name)
     with pytest.raises(StorageError, match=f"{re.escape(str(folder))}.* run again"):
-        for row in read_status(folder):
-            intact(folder / f"{row.id}.ply")
+        _ = [intact(folder / f"{row.id}.ply") for row in read_status(folder)]
 
 
 @pytest.mark.faults

@@ -1,7 +1,7 @@
 """Break chosen functions of the library, in every Python process that has this folder on its path.
 
-The library knows nothing of it. The file that ``MORPHOSKEL_FAULTS`` names lists faults: the module and the function, the
-shape at which it breaks (or none), the action, and a marker file for a fault that happens only once.
+The library knows nothing of it. The file that ``MORPHOSKEL_FAULTS`` names lists faults: the module and the function,
+the shape at which it breaks (or none), the action, and a marker file for a fault that happens only once.
 """
 
 import contextlib
