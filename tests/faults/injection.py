@@ -1,4 +1,4 @@
-"""Describe faults, and run Python under them."""
+"""Describe faults, and the environment of a process in which they happen."""
 
 import json
 import os

@@ -219,7 +219,11 @@ def resumable_fit(
 
 def _trainer(name: str, epochs: int, folder: Path, accelerator: str, devices: int, progress: bool) -> lightning.Trainer:
     best = ModelCheckpoint(
-        folder / name, Path(BEST).stem, monitor="validation_loss", save_on_train_epoch_end=True, enable_version_counter=False
+        folder / name,
+        Path(BEST).stem,
+        monitor="validation_loss",
+        save_on_train_epoch_end=True,
+        enable_version_counter=False,
     )
     return lightning.Trainer(
         accelerator=accelerator,

@@ -13,13 +13,25 @@ from torch import nn
 
 from morphoskel.atomic import atomic_file
 from morphoskel.checksums import intact_archive
-from morphoskel.errors import ConfigError, InputError
+from morphoskel.errors import ConfigError, InputError, StorageError
 
 
 def write_network(network: nn.Module, path: Path, **values: Any) -> None:
-    """Write the weights and plain `values` to one file, whole or not at all."""
+    """Write the weights and plain `values` to one file, whole or not at all.
+
+    Raises
+    ------
+    StorageError
+        If the disk refuses, which PyTorch calls a RuntimeError.
+    """
     with atomic_file(path) as partial:
-        torch.save({**values, "weights": network.state_dict()}, partial)
+        try:
+            torch.save({**values, "weights": network.state_dict()}, partial)
+        except (OSError, RuntimeError) as error:
+            raise StorageError(
+                f"{path}: cannot be written ({error}); check that the disk is writable and has space left, "
+                "then run again"
+            ) from error
 
 
 @contextmanager
@@ -37,6 +49,8 @@ def read_network(path: Path | str, what: str) -> Iterator[dict[str, Any]]:
     ------
     InputError
         If the file is missing, or no such network can be built from it.
+    StorageError
+        If the file is damaged; PyTorch itself does not notice turned bits.
     """
     try:
         yield torch.load(intact_archive(Path(path)), map_location="cpu", weights_only=True)
