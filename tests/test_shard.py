@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from small_chain import SEED, run_chain, small_sections, write_clouds
+from small_chain import SEED, list_clouds, run_chain, run_stage, small_sections, write_clouds
 from solids import sphere_cloud
 
+from morphoskel.chain import shard
 from morphoskel.chain.status import read_status
 from morphoskel.datasets.configured import open_configured
 from morphoskel.formats import read_skeleton_ply, write_cloud_ply
@@ -83,6 +84,23 @@ def test_a_failing_shape_is_recorded_and_carried_on(tmp_path, sections):
     assert rows == read_status(tmp_path / "dilation" / "0")  # carried on as they were, with the seconds until then
     assert all(row.seconds_so_far > row.seconds for row in rows)
     assert not list((tmp_path / "select_skeleton" / "0").glob("*.ply"))
+
+
+def _write_half_and_fail(stage, task):
+    task.write(".ply").write_bytes(b"half")
+    task.write(".ply.partial").write_bytes(b"half")
+    if task.record.id == "shape1":
+        raise ValueError("no surface")
+    task.write(".ply.partial").unlink()
+    return {}
+
+
+def test_a_failed_shape_leaves_no_half_written_file(tmp_path, sections, monkeypatch):
+    monkeypatch.setattr(shard, "_run_stage", _write_half_and_fail)
+    list_clouds(tmp_path, sections, shard_size=8)
+    run_stage(tmp_path, sections, "reconstruct")
+    names = {path.name for path in (tmp_path / "reconstruct" / "0").iterdir()}
+    assert names == {"SHA256SUMS", "status.csv", "shape0.ply", "shape2.ply", "shape3.ply"}
 
 
 def test_one_broken_file_loses_only_itself(tmp_path, sections):

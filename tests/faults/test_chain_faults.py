@@ -80,6 +80,7 @@ def test_a_native_crash_loses_one_shape_and_says_where(undisturbed, tmp_path, cl
     done = job(folder, faults=[fault(f"chain.{stage}", "run", "segfault", shape=s) for stage, s in SHAPES.items()])
     assert done.returncode == 0, done.stderr
     assert skeletons(folder) == {}  # each shape crashed at one stage
+    assert not [stage for stage, shape in SHAPES.items() if file_of(folder, stage, shape).exists()]
     for stage, shape in SHAPES.items():
         row = status(folder, "select_skeleton")[shape]
         assert (row.status, row.stage, row.log) == ("failed", stage, f"logs/{stage}/0.log")

@@ -93,6 +93,8 @@ def run_shard(
         work = functools.partial(_run_stage, stage)
         for outcome in run_isolated(work, tasks, workers=workers, preload=preload):
             rows[outcome.key] = _status(records[outcome.key], stage, outcome, before.get(outcome.key, 0.0), log)
+            if outcome.reason:
+                _remove_files(folder, outcome.key)
             logger.info("%d/%d %s", len(rows), len(records), _describe(rows[outcome.key]))
         write_status(folder, rows.values())
     return list(rows.values())
@@ -110,6 +112,13 @@ def _run_stage(stage: str, task: Task) -> Details:
             "check that the disk is writable and has space left, then run again"
         ) from error
     return details
+
+
+def _remove_files(folder: Path, shape: str) -> None:
+    """Remove what a shape left that died while its file was written."""
+    for path in folder.iterdir():
+        if Path(path.name.removesuffix(".partial")).stem == shape:
+            path.unlink()
 
 
 def _status(record: ShapeRecord, stage: str, outcome: Outcome[Details], before: float, log: str) -> Status:
