@@ -21,6 +21,8 @@ from morphoskel.datasets.manifest import read_manifest
 from morphoskel.errors import StorageError
 from morphoskel.stages import STAGES
 
+pytestmark = pytest.mark.timeout(3600)  # on a busy machine a chain waits for its turn
+
 SHAPES = {stage: f"shape{number}" for number, stage in enumerate(STAGES)}
 """The shape that is hit at each stage; one fault a shape, so that one run shows all stages."""
 
