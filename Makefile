@@ -9,7 +9,7 @@ ASSETS := src/morphoskel/reporting/assets
 THREE := 0.187.0
 ESBUILD := 0.28.2
 
-.PHONY: all test lint unit plan test-load bench format lock viewer help clean
+.PHONY: all test lint unit plan test-load test-faults bench format lock viewer help clean
 
 all: $(READY) ## every table and figure on the embedded data set (results/demo)
 	@$(BIN)/morphoskel run
@@ -31,6 +31,9 @@ plan: $(READY) ## what the published protocol will cost, or any: `make plan ARGS
 
 test-load: $(READY) ## as many shapes as ModelNet40 has through the chain, interrupted twice; goes on where it was (results/load)
 	$(BIN)/python -m tests.load $(ARGS)
+
+test-faults: $(READY) ## runs that are killed, damaged and starved of disk, and what a rerun makes of them (some as root only)
+	$(BIN)/pytest -m "faults or not faults" tests/faults $(ARGS)
 
 bench: $(READY) ## speed and memory beside the released computation; `make bench ARGS=scaling` picks one
 	$(BIN)/python -m benchmarks $(ARGS)

@@ -77,8 +77,6 @@ def write_shapes(root, run):
     folders["skeletons"] = run / "skeletons/solids/test/poisson/ms3d/00000"
     for kind, folder in folders.items():
         folder.mkdir(parents=True)
-        rows = [failed(record) if record.id == FAILED else ok(record, kind) for record in records]
-        write_status(folder, rows)
         for record in records:
             if record.id == FAILED:
                 continue
@@ -87,6 +85,7 @@ def write_shapes(root, run):
             else:
                 settings = {"candidates": CANDIDATES, "k": 8, "points": 32}
                 CHAIN[kind].run(Task(record, folders, folder, settings, seed=3))
+        write_status(folder, [failed(record) if record.id == FAILED else ok(record, kind) for record in records])
     write_chosen(run, {record.id: clouds[record.category] for record in records if record.id != FAILED})
     return SceneSources(
         manifest=root / "solids.csv",

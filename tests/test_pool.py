@@ -1,3 +1,4 @@
+import logging
 import os
 import signal
 import time
@@ -6,6 +7,7 @@ from pathlib import Path
 import psutil
 import pytest
 
+from morphoskel.errors import StorageError
 from morphoskel.pool import run_isolated
 
 
@@ -13,10 +15,18 @@ def _act(task):
     action, argument = task
     if action == "raise":
         raise ValueError(argument)
+    if action == "refuse":
+        raise StorageError(argument)
     if action == "crash":
         os.kill(os.getpid(), signal.SIGSEGV)
     if action == "exit":
         os._exit(3)
+    if action == "flaky then refuse":
+        marker = Path(argument)
+        if marker.exists():
+            raise StorageError("full")
+        marker.write_text("")
+        raise ValueError
     if action == "flaky":
         marker = Path(argument)
         if not marker.exists():
@@ -52,6 +62,20 @@ def test_a_task_that_fails_once_is_retried(tmp_path):
     outcome = _outcomes({"flaky": ("flaky", str(tmp_path / "marker"))})["flaky"]
     assert outcome.reason == ""
     assert outcome.attempts == 2
+
+
+def test_a_crash_leaves_a_traceback_in_the_log(caplog):
+    with caplog.at_level(logging.ERROR):
+        _outcomes({"wild": ("crash", 0)})
+    assert "wild crashed:\nFatal Python error: Segmentation fault" in caplog.text
+    assert "in _act" in caplog.text
+
+
+def test_a_full_disk_ends_it_all_at_the_first_or_second_attempt(tmp_path):
+    with pytest.raises(StorageError, match="full"):
+        _outcomes({"a": ("return", 0), "b": ("refuse", "full"), "c": ("return", 0)})
+    with pytest.raises(StorageError, match="full"):
+        _outcomes({"a": ("flaky then refuse", str(tmp_path / "marker"))})
 
 
 def test_no_tasks_no_outcomes():

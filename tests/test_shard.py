@@ -1,80 +1,23 @@
 """A shard as the workflow runs it: six stages, files in between."""
 
-import hashlib
-
 import numpy as np
 import pytest
+from small_chain import SEED, list_clouds, run_chain, run_stage, small_sections, write_clouds
 from solids import sphere_cloud
 
-from morphoskel.chain.shard import run_shard
+from morphoskel.chain import shard
 from morphoskel.chain.status import read_status
-from morphoskel.config import compose
 from morphoskel.datasets.configured import open_configured
-from morphoskel.datasets.manifest import build_manifest, write_manifest
 from morphoskel.formats import read_skeleton_ply, write_cloud_ply
-from morphoskel.shapes import PointCloud
 from morphoskel.skeletonization import skeletonize_shape
 from morphoskel.stages import STAGES
-
-READS = {
-    "watertight": ["reconstruct"],
-    "occupancy": ["watertight"],
-    "udf": ["watertight", "occupancy"],
-    "dilation": ["occupancy", "udf"],
-    "select_skeleton": ["occupancy", "udf", "dilation"],
-}
-SEED = 11
 
 
 @pytest.fixture(scope="module")
 def sections(tmp_path_factory):
     root = tmp_path_factory.mktemp("clouds")
-    for number in range(4):
-        cloud = sphere_cloud(400, seed=number)
-        stretched = cloud.points * np.array([1, 1 + 0.2 * number, 0.5])
-        write_cloud_ply(root / f"shape{number}.ply", PointCloud(stretched, cloud.normals))
-    overrides = ["experiment=smoke", "dataset=folder", f"dataset.root={root}", "skeleton.candidates.count=5000"]
-    return compose(
-        [*overrides, "skeleton.points=64", "surface.poisson.depth=5", "watertight.resolution=1000"]
-    ).model_dump(mode="json")
-
-
-def settings_of(stage, sections):
-    skeleton = sections["skeleton"]
-    return {
-        "reconstruct": {
-            "dataset": sections["dataset"],
-            "dataset_seed": SEED,
-            "surface": "poisson",
-            "reconstruction": sections["surface"]["poisson"],
-        },
-        "watertight": {"watertight": sections["watertight"]},
-        "dilation": {"candidates": skeleton["candidates"], "k": skeleton["k"]},
-        "select_skeleton": {"candidates": skeleton["candidates"], "points": skeleton["points"]},
-    }.get(stage, {"candidates": skeleton["candidates"]})
-
-
-def run_chain(folder, sections, shard_size, workers):
-    dataset = open_configured(sections["dataset"], seed=SEED)
-    records = build_manifest(dataset.list_shapes(), shard_size=shard_size)
-    write_manifest(folder / "manifest.csv", records)
-    for shard in sorted({record.shard for record in records}):
-        for stage in STAGES:
-            run_shard(
-                stage,
-                manifest=folder / "manifest.csv",
-                split=records[0].split,
-                shard=shard,
-                inputs={earlier: folder / earlier / str(shard) for earlier in READS.get(stage, [])},
-                output=folder / stage / str(shard),
-                settings=settings_of(stage, sections),
-                seed=SEED,
-                cores=workers,
-            )
-    return {
-        path.name: hashlib.sha256(path.read_bytes()).hexdigest()
-        for path in sorted((folder / "select_skeleton").glob("*/*.ply"))
-    }
+    write_clouds(root, 4)
+    return small_sections(root)
 
 
 @pytest.fixture(scope="module")
@@ -141,6 +84,23 @@ def test_a_failing_shape_is_recorded_and_carried_on(tmp_path, sections):
     assert rows == read_status(tmp_path / "dilation" / "0")  # carried on as they were, with the seconds until then
     assert all(row.seconds_so_far > row.seconds for row in rows)
     assert not list((tmp_path / "select_skeleton" / "0").glob("*.ply"))
+
+
+def _write_half_and_fail(stage, task):
+    task.write(".ply").write_bytes(b"half")
+    task.write(".ply.partial").write_bytes(b"half")
+    if task.record.id == "shape1":
+        raise ValueError("no surface")
+    task.write(".ply.partial").unlink()
+    return {}
+
+
+def test_a_failed_shape_leaves_no_half_written_file(tmp_path, sections, monkeypatch):
+    monkeypatch.setattr(shard, "_run_stage", _write_half_and_fail)
+    list_clouds(tmp_path, sections, shard_size=8)
+    run_stage(tmp_path, sections, "reconstruct")
+    names = {path.name for path in (tmp_path / "reconstruct" / "0").iterdir()}
+    assert names == {"SHA256SUMS", "status.csv", "shape0.ply", "shape2.ply", "shape3.ply"}
 
 
 def test_one_broken_file_loses_only_itself(tmp_path, sections):

@@ -26,15 +26,14 @@ def evaluated(tmp_path):
     write_manifest(tmp_path / "manifest.csv", records)
     folders = [tmp_path / "00000", tmp_path / "00001"]
     axes = [tmp_path / "axis"]
+    write_skeleton_ply(folders[0] / f"{records[0].id}.ply", Skeleton(np.zeros((1, 3)), [0.5], [0.0]))
     for folder, record, reason in zip(folders, records, ["", "no surface"], strict=True):
-        folder.mkdir()
+        folder.mkdir(exist_ok=True)
         state = "failed" if reason else "ok"
         write_status(folder, [Status(record.id, record.category, state, "reconstruct", reason, 1, 0.1, 0.1, "")])
-    write_skeleton_ply(folders[0] / f"{records[0].id}.ply", Skeleton(np.zeros((1, 3)), [0.5], [0.0]))
-    axes[0].mkdir()
-    write_status(axes[0], [Status(r.id, r.category, "ok", "medial_axis", "", 1, 0.1, 0.1, "") for r in records])
     for record in records:
         write_skeleton_ply(axes[0] / f"{record.id}.ply", Skeleton(np.array([[0, 0, 0.25], [0, 0, -0.5]]), [1.0, 1.0]))
+    write_status(axes[0], [Status(r.id, r.category, "ok", "medial_axis", "", 1, 0.1, 0.1, "") for r in records])
     arguments = {"split": records[0].split, "dataset": section, "seed": 1, "surface": "poisson", "method": "ms3d"}
     return tmp_path / "manifest.csv", folders, axes, arguments
 

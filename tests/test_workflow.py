@@ -13,6 +13,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 from conftest import REPOSITORY
+from workflow_copy import copy_repository, environment, run
 
 pytestmark = [pytest.mark.workflow, pytest.mark.timeout(1800)]  # the first test waits for the whole run
 
@@ -21,34 +22,6 @@ TABLES = ["skeleton_reconstruction", "surface_reconstruction", "processing_time"
 SAMPLING_TABLES = ["object_classification", "point_cloud_retrieval", "skeleton_prior"]
 EVERY_TABLE = [f"table_{name}" for name in [*TABLES, *SAMPLING_TABLES, "part_segmentation"]]
 CHAIN = ["reconstruct", "watertight", "occupancy", "udf", "dilation", "select_skeleton"]
-
-
-def copy_repository(target: Path) -> Path:
-    target.mkdir(parents=True)
-    for name in ("workflow", "config", "profiles", "src"):
-        shutil.copytree(REPOSITORY / name, target / name, ignore=shutil.ignore_patterns("*.pyc"))
-    for name in ("Snakefile", "environment.yml"):
-        shutil.copy(REPOSITORY / name, target)
-    return target
-
-
-def environment(repository: Path) -> dict[str, str]:
-    return {**os.environ, "PYTHONPATH": str(repository / "src"), "PYTHONDONTWRITEBYTECODE": "1"}
-
-
-def run(repository: Path, *words: str, check: bool = True) -> str:
-    """Call ``morphoskel run`` and return all it printed."""
-    command = [sys.executable, "-m", "morphoskel.cli", "run", *words]
-    done = subprocess.run(
-        command,
-        cwd=repository,
-        env=environment(repository),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-    )
-    assert (done.returncode == 0) is check, done.stdout[-6000:]
-    return done.stdout
 
 
 def planned(repository: Path, *words: str) -> set[str]:

@@ -21,5 +21,9 @@ class ConfigError(MorphoSkelError, ValueError):
     """A configuration key or value is not legal."""
 
 
+class StorageError(MorphoSkelError):
+    """A file of the run cannot be written, as on a full disk, or is not what was written; no shape is to blame."""
+
+
 class ShapeError(MorphoSkelError):
     """One shape cannot pass a stage of the chain; the other shapes are not affected."""

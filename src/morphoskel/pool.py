@@ -1,15 +1,19 @@
 """A process pool that survives its workers.
 
 An exception or a native crash in one task never loses the others. A task that failed is tried once more, alone in a
-process of its own, where a crash can be told apart by its signal.
+process of its own, where a crash can be told apart by its signal and leaves a traceback in the log. Only a
+:class:`~morphoskel.errors.StorageError` ends it all: it concerns every task, and none is to blame for it.
 """
 
 from __future__ import annotations
 
+import faulthandler
+import logging
 import multiprocessing
 import os
 import signal
 import sys
+import tempfile
 import threading
 import time
 from collections import deque
@@ -19,7 +23,12 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
+from pathlib import Path
 from typing import Any, Generic, TypeVar
+
+from morphoskel.errors import StorageError
+
+logger = logging.getLogger(__name__)
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -70,6 +79,11 @@ def run_isolated(
     ------
     Outcome
         One for each task, in no particular order.
+
+    Raises
+    ------
+    StorageError
+        As soon as a task raises one.
     """
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(list(preload))
@@ -102,6 +116,8 @@ def _run_pool(
             broken = False
             for future in done:
                 error = future.exception()
+                if isinstance(error, StorageError):
+                    raise error
                 broken = broken or isinstance(error, BrokenProcessPool)
                 yield running.pop(future), future.result() if error is None else None
             if broken:
@@ -118,27 +134,39 @@ def _run_alone(function: Callable[[T], R], key: str, task: T, context: Any) -> O
     """Run the task a second time, in a process of its own."""
     receiver, sender = context.Pipe(duplex=False)
     start = time.perf_counter()
-    process = context.Process(target=_report, args=(function, task, sender), name=f"retry of {key}")
-    with _main_hidden():
-        process.start()
-    sender.close()
-    try:
-        succeeded, value = receiver.recv()
-    except EOFError:
-        succeeded, value = False, ""
-    process.join()
+    with tempfile.TemporaryDirectory() as folder:
+        trace = Path(folder) / "traceback.txt"
+        process = context.Process(target=_report, args=(function, task, sender, trace), name=f"retry of {key}")
+        with _main_hidden():
+            process.start()
+        sender.close()
+        try:
+            succeeded, value = receiver.recv()
+        except EOFError:
+            succeeded, value = False, ""
+        process.join()
+        if trace.exists() and (lines := trace.read_text(errors="replace").strip()):
+            logger.error("%s crashed:\n%s", key, lines)
     seconds = time.perf_counter() - start
+    if isinstance(value, StorageError):
+        raise value
     if succeeded:
         return Outcome(key, value, "", 2, seconds)
     return Outcome(key, None, value or _describe_exit(process.exitcode), 2, seconds)
 
 
-def _report(function: Callable[[T], R], task: T, sender: Connection) -> None:
+def _report(function: Callable[[T], R], task: T, sender: Connection, trace: Path) -> None:
     _die_with_parent()
-    try:
-        sender.send((True, function(task)))
-    except Exception as error:
-        sender.send((False, f"{type(error).__name__}: {error}"))
+    with trace.open("w") as stream:
+        faulthandler.enable(stream)
+        try:
+            sender.send((True, function(task)))
+        except StorageError as error:
+            sender.send((False, error))
+        except Exception as error:
+            sender.send((False, f"{type(error).__name__}: {error}"))
+        finally:
+            faulthandler.disable()
 
 
 def _describe_exit(code: int | None) -> str:

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from morphoskel.atomic import atomic_file
+from morphoskel.checksums import checked_file
 from morphoskel.evaluation.skeletons import Balls, check_failures, evaluate_skeletons
 from morphoskel.logs import log_to
 
@@ -19,5 +19,5 @@ rows = evaluate_skeletons(
     balls=Balls(**snakemake.params.balls),
 )
 check_failures(rows.to_dict("records"), snakemake.params.max_failed)
-with atomic_file(Path(snakemake.output[0])) as path:
+with checked_file(Path(snakemake.output[0])) as path:
     rows.to_csv(path, index=False)

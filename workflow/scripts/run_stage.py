@@ -21,4 +21,5 @@ run_shard(
     seed=snakemake.params.seed,
     cores=snakemake.threads,
     threads=snakemake.resources.shape_threads,
+    log=snakemake.log[0],
 )

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from morphoskel.atomic import atomic_file
+from morphoskel.checksums import checked_file
 from morphoskel.evaluation.timing import time_stages
 from morphoskel.logs import log_to
 
@@ -16,5 +16,5 @@ rows = time_stages(
     shapes_per_category=snakemake.params.timing["shapes_per_category"],
     threads=snakemake.threads,
 )
-with atomic_file(Path(snakemake.output[0])) as path:
+with checked_file(Path(snakemake.output[0])) as path:
     rows.to_csv(path, index=False)

@@ -7,6 +7,9 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
+from morphoskel.checksums import LIST, intact, write_checksums
+from morphoskel.errors import StorageError
+
 FILE_NAME = "status.csv"
 
 
@@ -32,6 +35,8 @@ class Status:
         Together with the stages before it.
     details
         Counts that the stage records, as ``name=value`` joined by semicolons.
+    log
+        Where the stage that wrote the row logged.
     """
 
     id: str
@@ -43,21 +48,39 @@ class Status:
     seconds: float
     seconds_so_far: float
     details: str
+    log: str = ""
+
+    @property
+    def failure(self) -> str:
+        """Stage, reason and log of a shape that failed, in words."""
+        return f"{self.stage}: {self.reason}" + (f" (log: {self.log})" if self.log else "")
 
 
 def write_status(folder: Path, rows: Iterable[Status]) -> None:
-    """Write the rows, sorted by shape id, to ``status.csv`` in `folder`."""
+    """Write the rows, sorted by shape id, to ``status.csv`` in `folder`, and the checksums of all files there.
+
+    Called last: a file that is written later is damaged in the eyes of a reader.
+    """
     with (folder / FILE_NAME).open("w", newline="") as stream:
         writer = csv.DictWriter(stream, [field.name for field in fields(Status)], lineterminator="\n")
         writer.writeheader()
         for row in sorted(rows, key=lambda row: row.id):
             times = {name: f"{getattr(row, name):.3f}" for name in ("seconds", "seconds_so_far")}
             writer.writerow({**asdict(row), **times})
+    write_checksums(folder)
 
 
 def read_status(folder: Path) -> list[Status]:
-    """Read the rows of ``status.csv`` in `folder`."""
-    with (folder / FILE_NAME).open(newline="") as stream:
+    """Read the rows of ``status.csv`` in `folder`.
+
+    Raises
+    ------
+    StorageError
+        If the file is damaged, or the folder has lost its checksums.
+    """
+    if not (folder / LIST).exists():
+        raise StorageError(f"{folder}: has no {LIST}, which every stage writes; remove the folder and run again")
+    with intact(folder / FILE_NAME).open(newline="") as stream:
         rows = list(csv.DictReader(stream))
     kinds = {"attempts": int, "seconds": float, "seconds_so_far": float}
     return [Status(**{name: kinds.get(name, str)(value) for name, value in row.items()}) for row in rows]

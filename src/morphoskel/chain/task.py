@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from morphoskel.checksums import intact
 from morphoskel.datasets.manifest import ShapeRecord
 
 
@@ -36,8 +37,14 @@ class Task:
     threads: int = 1
 
     def read(self, stage: str, suffix: str) -> Path:
-        """Return the file that `stage` wrote for this shape."""
-        return self.inputs[stage] / f"{self.record.id}{suffix}"
+        """Return the file that `stage` wrote for this shape.
+
+        Raises
+        ------
+        StorageError
+            If it is damaged.
+        """
+        return intact(self.inputs[stage] / f"{self.record.id}{suffix}")
 
     def write(self, suffix: str) -> Path:
         """Return the file that this stage has to write."""

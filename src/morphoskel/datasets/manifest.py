@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from morphoskel.atomic import atomic_file
+from morphoskel.checksums import checked_file, intact
 from morphoskel.errors import DatasetError
 from morphoskel.progress import count_up, track
 
@@ -140,7 +140,7 @@ def checksum(*paths: Path, progress: bool = False) -> str:
 
 def write_manifest(path: Path, records: Iterable[ShapeRecord]) -> None:
     """Write `records` as CSV (UTF-8, line feeds only): equal records give equal bytes."""
-    with atomic_file(path) as partial, partial.open("w", encoding="utf-8", newline="") as stream:
+    with checked_file(path) as partial, partial.open("w", encoding="utf-8", newline="") as stream:
         writer = csv.writer(stream, lineterminator="\n")
         writer.writerow(COLUMNS)
         for record in records:
@@ -167,9 +167,11 @@ def read_manifest(path: Path, *, split: str | None = None, shard: int | None = N
     ------
     DatasetError
         If the file is missing or not a manifest, or if nothing is left while a split or shard was asked for.
+    StorageError
+        If the file is damaged.
     """
     try:
-        with path.open(encoding="utf-8", newline="") as stream:
+        with intact(path).open(encoding="utf-8", newline="") as stream:
             rows = list(csv.reader(stream))
     except (OSError, UnicodeDecodeError) as error:
         raise DatasetError(f"{path}: cannot be read as a manifest ({error}); build the manifest first") from error

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from morphoskel.atomic import atomic_file
+from morphoskel.checksums import checked_file
 from morphoskel.evaluation.classification import classify
 from morphoskel.evaluation.retrieval import average_precisions
 from morphoskel.progress import track
@@ -124,7 +124,7 @@ def evaluate_files(
         read_prior_set(priors, shapes).reasons if priors else None,
     )
     for frame, path in zip(frames, outputs, strict=True):
-        with atomic_file(path) as partial:
+        with checked_file(path) as partial:
             frame.to_csv(partial, index=False)
 
 

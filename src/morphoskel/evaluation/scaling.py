@@ -8,7 +8,7 @@ from itertools import pairwise, product
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from morphoskel.atomic import atomic_file
+from morphoskel.checksums import checked_file, intact
 from morphoskel.errors import InputError
 from morphoskel.morphology import dilation
 from morphoskel.progress import track
@@ -85,7 +85,7 @@ def write_scaling(
     Parameters and errors are those of :func:`measure_scaling`.
     """
     frame = measure_scaling(mesh, counts, k=k, seed=seed, repeats=repeats, threads=threads)
-    with atomic_file(path) as partial:
+    with checked_file(path) as partial:
         frame.to_csv(partial, index=False, lineterminator="\n")
 
 
@@ -101,7 +101,7 @@ def read_scaling(path: Path) -> pd.DataFrame:
 
     if not path.is_file():
         raise InputError(f"{path}: no such file; expected times with the columns {', '.join(SCALING_COLUMNS)}")
-    frame = pd.read_csv(path)
+    frame = pd.read_csv(intact(path))
     if tuple(frame.columns) != SCALING_COLUMNS:
         raise InputError(f"{path}: expected the columns {', '.join(SCALING_COLUMNS)}, got {', '.join(frame.columns)}")
     problems = {

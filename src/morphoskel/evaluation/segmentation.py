@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from morphoskel.atomic import atomic_file
+from morphoskel.checksums import checked_file
 from morphoskel.errors import InputError
 from morphoskel.progress import track
 from morphoskel.shapes import FloatArray, IntArray
@@ -163,7 +163,7 @@ def evaluate_segmentation_files(
             raise InputError(f"{path}, on {clouds}: {error}") from error
         case = pd.DataFrame({"strategy": strategy, "ratio": ratio, "seed": number}, index=frame.index)
         frames.append(pd.concat([case, frame], axis="columns").assign(labels=labels))
-    with atomic_file(output) as partial:
+    with checked_file(output) as partial:
         pd.concat(frames, ignore_index=True).to_csv(partial, index=False)
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from morphoskel.chain.status import Status, read_status
+from morphoskel.checksums import intact
 from morphoskel.datasets.configured import open_configured
 from morphoskel.datasets.manifest import ShapeRecord, read_manifest
 from morphoskel.errors import MorphoSkelError, ShapeError
@@ -96,6 +97,8 @@ def evaluate_skeletons(
     ------
     ShapeError
         If a shape of the split is in none of the folders.
+    StorageError
+        If a skeleton or an axis is damaged.
     """
     import pandas as pd
 
@@ -109,10 +112,10 @@ def evaluate_skeletons(
         own: dict[str, Any] = {"id": record.id, "category": record.category, "surface": surface, "method": method}
         if status.status == "failed":
             kinds = [AS_IS, *([DENSE] if balls.dense else []), *map(str, balls.equal_counts)]
-            failed = {"status": "failed", "reason": f"{status.stage}: {status.reason}"}
+            failed = {"status": "failed", "reason": status.failure}
             rows += [{**own, "balls": kind, **failed} for kind in kinds]
             continue
-        skeleton = read_skeleton_ply(folder / f"{record.id}.ply")
+        skeleton = read_skeleton_ply(intact(folder / f"{record.id}.ply"))
         cloud = source.load(record.path).points
         axis = _read_axis(record, axis_statuses)
         generator = np.random.default_rng(derive_seed(seed, record.id, "equal counts"))
@@ -157,8 +160,8 @@ def _read_axis(record: ShapeRecord, statuses: Mapping[str, tuple[Status, Path]])
         return ""
     status, folder = statuses[record.id]
     if status.status == "failed":
-        return f"reference axis: {status.stage}: {status.reason}"
-    return read_skeleton_ply(folder / f"{record.id}.ply").points
+        return f"reference axis: {status.failure}"
+    return read_skeleton_ply(intact(folder / f"{record.id}.ply")).points
 
 
 def _statuses(folders: Sequence[Path], records: Sequence[ShapeRecord]) -> dict[str, tuple[Status, Path]]:
@@ -193,5 +196,7 @@ def check_failures(rows: Iterable[Mapping[str, Any]], max_failed: int) -> None:
         more = f"\n  and {len(failed) - LISTED_FAILURES} more" if len(failed) > LISTED_FAILURES else ""
         raise ShapeError(
             f"{len(failed)} shapes failed, {max_failed} are tolerated (max_failed):\n  {shown}{more}\n"
-            "Mend the input or the settings; or raise max_failed, and the tables state how many failed"
+            "Mend the input or the settings; or raise max_failed, and the tables state how many failed. "
+            "A shape that was killed, as for want of memory, is tried again once the folder of that stage and shard "
+            "is removed"
         )

@@ -16,12 +16,15 @@ from lightning.pytorch.callbacks import Callback, Checkpoint, ModelCheckpoint
 from lightning.pytorch.loggers import TensorBoardLogger
 
 from morphoskel.atomic import atomic_file
+from morphoskel.checksums import checked_file, intact
+from morphoskel.learning.damaged_checkpoints import discard_damaged
 from morphoskel.progress import shows_bars
 from morphoskel.seeds import derive_seed
 
 logger = logging.getLogger(__name__)
 
 LAST = "last.ckpt"
+BEST = "best.ckpt"
 LOG_COLUMNS = ("epoch", "training_loss", "validation_loss", "seconds")
 
 
@@ -151,11 +154,11 @@ class _LossTable(Callback):
             return
         rows: list[list[Any]] = []
         if self.path.exists():
-            with self.path.open(newline="") as file:
+            with intact(self.path).open(newline="") as file:
                 rows = [row for row in list(csv.reader(file))[1:] if int(row[0]) < trainer.current_epoch]
         losses = [f"{float(trainer.callback_metrics[name]):.6g}" for name in LOG_COLUMNS[1:3]]
         rows.append([trainer.current_epoch, *losses, f"{time.perf_counter() - self.started:.2f}"])
-        with atomic_file(self.path) as partial, partial.open("w", newline="") as file:
+        with checked_file(self.path) as partial, partial.open("w", newline="") as file:
             csv.writer(file).writerows([LOG_COLUMNS, *rows])
         logger.info("%s: epoch %s, training loss %s, validation loss %s, %s s", self.path.stem, *rows[-1])
 
@@ -191,7 +194,8 @@ def resumable_fit(
         Passes over the training shapes.
     folder
         For ``<name>.csv`` with the losses, ``<name>/`` with the checkpoints of the last and the best epoch, and
-        ``curves/<name>/`` with the losses for TensorBoard. If it holds a last checkpoint, the training goes on there.
+        ``curves/<name>/`` with the losses for TensorBoard. If it holds a last checkpoint, the training goes on there;
+        if a checkpoint is damaged, the phase starts anew, and ends with the same weights.
     accelerator
         As in Lightning, for example ``"auto"`` or ``"cpu"``.
     devices
@@ -201,6 +205,7 @@ def resumable_fit(
     """
     logging.getLogger("lightning.pytorch").setLevel(logging.WARNING)  # it advertises at level INFO
     checkpoints = folder / phase.name
+    discard_damaged(checkpoints, LAST, BEST)
     checkpoints.mkdir(parents=True, exist_ok=True)
     batches = len(phase.train_dataloader()) // devices
     phase.total_steps = epochs * batches
@@ -209,13 +214,17 @@ def resumable_fit(
         trainer = _trainer(phase.name, epochs, folder, accelerator, devices, progress)
         last = checkpoints / LAST
         trainer.fit(phase, ckpt_path=last if last.exists() else None, weights_only=True)
-    best = torch.load(checkpoints / "best.ckpt", map_location="cpu", weights_only=True)
+    best = torch.load(checkpoints / BEST, map_location="cpu", weights_only=True)
     phase.load_state_dict(best["state_dict"])
 
 
 def _trainer(name: str, epochs: int, folder: Path, accelerator: str, devices: int, progress: bool) -> lightning.Trainer:
     best = ModelCheckpoint(
-        folder / name, "best", monitor="validation_loss", save_on_train_epoch_end=True, enable_version_counter=False
+        folder / name,
+        Path(BEST).stem,
+        monitor="validation_loss",
+        save_on_train_epoch_end=True,
+        enable_version_counter=False,
     )
     return lightning.Trainer(
         accelerator=accelerator,

@@ -12,13 +12,26 @@ import torch
 from torch import nn
 
 from morphoskel.atomic import atomic_file
-from morphoskel.errors import ConfigError, InputError
+from morphoskel.checksums import intact_archive
+from morphoskel.errors import ConfigError, InputError, StorageError
 
 
 def write_network(network: nn.Module, path: Path, **values: Any) -> None:
-    """Write the weights and plain `values` to one file, whole or not at all."""
+    """Write the weights and plain `values` to one file, whole or not at all.
+
+    Raises
+    ------
+    StorageError
+        If the disk refuses, which PyTorch calls a RuntimeError.
+    """
     with atomic_file(path) as partial:
-        torch.save({**values, "weights": network.state_dict()}, partial)
+        try:
+            torch.save({**values, "weights": network.state_dict()}, partial)
+        except (OSError, RuntimeError) as error:
+            raise StorageError(
+                f"{path}: cannot be written ({error}); check that the disk is writable and has space left, "
+                "then run again"
+            ) from error
 
 
 @contextmanager
@@ -36,9 +49,11 @@ def read_network(path: Path | str, what: str) -> Iterator[dict[str, Any]]:
     ------
     InputError
         If the file is missing, or no such network can be built from it.
+    StorageError
+        If the file is damaged; PyTorch itself does not notice turned bits.
     """
     try:
-        yield torch.load(path, map_location="cpu", weights_only=True)
+        yield torch.load(intact_archive(Path(path)), map_location="cpu", weights_only=True)
     except FileNotFoundError as error:
         raise InputError(f"{path}: no trained {what} there; train one first") from error
     except (RuntimeError, KeyError, TypeError, EOFError, pickle.UnpicklingError, ConfigError) as error:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from morphoskel.checksums import intact
 from morphoskel.errors import InputError
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ def read_result_rows(paths: Sequence[Path], columns: Sequence[str]) -> pd.DataFr
     for path in paths:
         if not path.is_file():
             raise InputError(f"{path}: no such file; expected results with the columns {', '.join(columns)}")
-        present = pd.read_csv(path, nrows=0).columns
+        present = pd.read_csv(intact(path), nrows=0).columns
         missing = [name for name in columns if name not in present]
         if missing:
             raise InputError(f"{path}: the columns {', '.join(missing)} are missing; expected {', '.join(columns)}")

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from morphoskel.checksums import intact
 from morphoskel.errors import InputError
 from morphoskel.reporting.skeleton_tables import skeleton_reconstruction, surface_reconstruction
 from morphoskel.reporting.table import compose_caption, write_table
@@ -46,7 +47,7 @@ def write_skeleton_table(
 
     if name not in TITLES:
         raise InputError(f"no such table {name!r}; legal are {', '.join(TITLES)}")
-    frame = pd.concat([pd.read_csv(path, keep_default_na=True) for path in rows], ignore_index=True)
+    frame = pd.concat([pd.read_csv(intact(path), keep_default_na=True) for path in rows], ignore_index=True)
     common: dict[str, Any] = {"dataset": provenance["dataset"], "seeds": [provenance["seed"]]}
     title = f"{TITLES[name]} ({provenance['candidates']} candidates)"
     if name == "processing_time":

@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from morphoskel.atomic import atomic_file
 from morphoskel.chain.status import read_status
+from morphoskel.checksums import intact
 from morphoskel.datasets.cloud_set import CloudSet
 from morphoskel.errors import InputError, ShapeError
 from morphoskel.formats import read_skeleton_ply
@@ -60,6 +61,8 @@ def measure_local_feature_sizes(clouds: CloudSet, folders: Sequence[Path], *, pr
     ------
     ShapeError
         If a shape of the split is in none of the folders.
+    StorageError
+        If a skeleton is damaged.
     """
     found = {row.id: (row, folder) for folder in folders for row in read_status(folder)}
     distances = np.full(clouds.points.shape[:2], np.nan, dtype=np.float32)
@@ -69,9 +72,10 @@ def measure_local_feature_sizes(clouds: CloudSet, folders: Sequence[Path], *, pr
             raise ShapeError(f"{shape}: is in none of the {len(folders)} skeleton folders; build the skeletons again")
         status, folder = found[shape]
         if status.status == "failed":
-            reasons.append(f"{status.stage}: {status.reason}")
+            reasons.append(status.failure)
             continue
-        skeleton = (read_skeleton_ply(folder / f"{shape}.ply").points - clouds.centres[number]) / clouds.scales[number]
+        skeleton = read_skeleton_ply(intact(folder / f"{shape}.ply")).points
+        skeleton = (skeleton - clouds.centres[number]) / clouds.scales[number]
         distances[number] = local_feature_size(clouds.points[number].astype(np.float64), skeleton)
         reasons.append("")
     return PriorSet(clouds.ids, distances, np.array(reasons, dtype=np.str_))

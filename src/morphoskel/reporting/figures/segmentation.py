@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from morphoskel.checksums import intact
 from morphoskel.errors import InputError
 from morphoskel.evaluation.segmentation import shape_iou
 from morphoskel.reporting.figure_page import cropped, paint_parts
@@ -169,7 +170,7 @@ def _title(strategy: str, network: Path, evaluation: Path) -> str:
 
     if strategy == FULL:
         return "all labels"
-    rows = pd.read_csv(evaluation)
+    rows = pd.read_csv(intact(evaluation))
     of_network = rows[(rows["ratio"] == int(network.parent.parent.name)) & (rows["seed"] == int(network.parent.name))]
     if of_network.empty:
         raise InputError(f"{evaluation}: holds no row of {network}; evaluate the networks again")

@@ -6,6 +6,7 @@ from collections.abc import Sequence, Set
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from morphoskel.checksums import intact
 from morphoskel.errors import InputError
 from morphoskel.evaluation.averages import AVERAGES, MEAN_OVER_SHAPES
 from morphoskel.reporting.figure_page import TEXT_WIDTH, figure_page
@@ -88,7 +89,7 @@ def _read_file(path: Path) -> pd.DataFrame:
         raise InputError(f"{path}: no such file; {expected}")
     types = {name: float if name == "seconds" else str for name in TIME_COLUMNS}
     try:
-        frame = pd.read_csv(path, dtype=types, keep_default_na=False, na_values={"seconds": [""]})
+        frame = pd.read_csv(intact(path), dtype=types, keep_default_na=False, na_values={"seconds": [""]})
     except ValueError as error:
         raise InputError(f"{path}: a time is not a number: {error}") from error
     missing = [column for column in TIME_COLUMNS if column not in frame.columns]
