@@ -114,10 +114,21 @@ def intermediate(folder):
     return directory(folder) if CONFIG.keep_intermediates else temp(directory(folder))
 
 
-# MB for a job of the chain whose workers each hold the inner points of one shape, and an upper bound on its minutes.
-# Plain numbers: a function would be called anew for every job of a dry run.
-MEMORY = 600 + CONFIG.cores * (400 + CONFIG.skeleton.candidates.count * 60 // 1_000_000)
+# All cores that the run may use. On a cluster there is no such number, and inside its jobs it is that of the node: there,
+# as many as a job of the chain has.
+ALL_CORES = (
+    None if workflow.remote_exec else workflow.resource_settings.cores
+) or CONFIG.cores
+
+# MB for a job of the chain whose workers each hold the inner points of one shape, and an upper bound on its minutes. The
+# first summand holds Snakemake, which runs twice around a job of a cluster, and the job's main process.
+MEMORY = 1000 + CONFIG.cores * (400 + CONFIG.skeleton.candidates.count * 60 // 1_000_000)
 MINUTES = 10 + CONFIG.shard_size * (1 + CONFIG.skeleton.candidates.count // 10_000_000)
+
+
+def rising(amount):
+    """Return a resource that grows with every attempt: a job that was killed for want of memory or time gets more."""
+    return lambda wildcards, attempt: attempt * amount
 
 
 # Written out where params need them, in which Snakemake does not replace <results>.

@@ -19,8 +19,8 @@ rule table_skeleton_reconstruction:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=500,
-        runtime=10,
+        mem_mb=rising(1000),
+        runtime=rising(10),
     params:
         provenance=provenance(),
         digest=code_digest("reporting.skeleton_table_files"),
@@ -47,8 +47,8 @@ rule table_surface_reconstruction:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=500,
-        runtime=10,
+        mem_mb=rising(1000),
+        runtime=rising(10),
     params:
         provenance=provenance(),
         digest=code_digest("reporting.skeleton_table_files"),
@@ -78,8 +78,8 @@ rule table_processing_time:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=500,
-        runtime=10,
+        mem_mb=rising(1000),
+        runtime=rising(10),
     params:
         provenance=provenance(),
         digest=code_digest("reporting.skeleton_table_files"),
@@ -105,8 +105,8 @@ rule table_object_classification:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=rising(2000),
+        runtime=rising(10),
     params:
         provenance=sampling_provenance(),
         digest=code_digest("reporting.sampling_table_files"),
@@ -132,8 +132,8 @@ rule table_point_cloud_retrieval:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=rising(2000),
+        runtime=rising(10),
     params:
         provenance=sampling_provenance(),
         digest=code_digest("reporting.sampling_table_files"),
@@ -159,8 +159,8 @@ rule table_skeleton_prior:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=rising(2000),
+        runtime=rising(10),
     params:
         provenance=sampling_provenance(),
         digest=code_digest("reporting.sampling_table_files"),
@@ -185,8 +185,8 @@ rule table_part_segmentation:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=rising(2000),
+        runtime=rising(10),
     params:
         provenance=segmentation_provenance(),
         digest=code_digest("reporting.segmentation_table_files"),
