@@ -9,7 +9,7 @@ ASSETS := src/morphoskel/reporting/assets
 THREE := 0.187.0
 ESBUILD := 0.28.2
 
-.PHONY: all test lint unit bench format lock viewer help clean
+.PHONY: all test lint unit test-cluster slurm bench format lock viewer help clean
 
 all: $(READY) ## every table and figure on the embedded data set (results/demo)
 	@$(BIN)/morphoskel run
@@ -25,6 +25,13 @@ lint: $(READY) ## format, lint and type checks alone
 
 unit: $(READY) ## tests alone; `make unit ARGS="-k dilation"` picks some
 	$(BIN)/pytest $(ARGS)
+
+test-cluster: slurm ## the smallest experiment through a SLURM cluster on this machine; TARGETS="table_..." for a part of it
+	tests/cluster/install_slurm
+	CLUSTER_TARGETS="$(TARGETS)" $(BIN)/pytest tests/cluster/through_slurm.py $(ARGS)
+
+slurm: $(READY) ## add what submits jobs to a SLURM cluster to the environment
+	$(BIN)/pip install --disable-pip-version-check --quiet --constraint requirements.lock --no-build-isolation --editable ".[slurm]"
 
 bench: $(READY) ## speed and memory beside the released computation; `make bench ARGS=scaling` picks one
 	$(BIN)/python -m benchmarks $(ARGS)
@@ -61,7 +68,7 @@ viewer: ## bundle the script of the interactive viewer anew, with the three.js a
 	cp node_modules/three/LICENSE "$(CURDIR)/$(ASSETS)/three.LICENSE"
 
 help: ## this list
-	@grep -hE '^[a-z]+:.*## ' Makefile | sed -E 's/^([a-z]+):.*## (.*)/  make \1|\2/' | column -t -s '|'
+	@grep -hE '^[a-z-]+:.*## ' Makefile | sed -E 's/^([a-z-]+):.*## (.*)/  make \1|\2/' | column -t -s '|'
 
 clean: ## remove the results and the generated data; keeps the environment, results/reference and downloads
 	@read -r -p "Remove results/* (but not results/reference) and resources/manifest, resources/data/synthetic*? [y/N] " answer; \
