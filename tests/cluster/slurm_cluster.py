@@ -1,9 +1,8 @@
 """A SLURM cluster of one node on this machine, for as long as a test needs it.
 
 It needs the programs of Debian's packages ``munge``, ``slurmctld``, ``slurmd`` and ``slurm-client`` (see
-``install_slurm``), no accounting, no cgroups, no systemd, and no rights of an administrator. Everything it writes is in
-one folder, so that neither ``/etc/slurm`` nor a cluster that this machine belongs to is touched; ``SLURM_CONF`` tells the
-commands where to look.
+``install_slurm``); no accounting, no cgroups, no systemd. Everything it writes is in one folder, so that neither
+``/etc/slurm`` nor a cluster that this machine belongs to is touched; ``SLURM_CONF`` tells the commands where to look.
 
 Run a command in such a cluster, here a shell:  python tests/cluster/slurm_cluster.py bash
 """
@@ -103,7 +102,8 @@ def slurm_cluster(processors: int = 2, memory: int = 32_000) -> Iterator[dict[st
             # MUNGE wants every folder above its socket to be writable by its owner alone, or sticky.
             folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="slurm-", dir="/tmp")))
             folder.chmod(0o755)
-            variables = {"SLURM_CONF": f"{folder}/slurm.conf", "PATH": f"{folder}/bin:{os.environ.get('PATH', os.defpath)}"}
+            search_path = f"{folder}/bin:{os.environ.get('PATH', os.defpath)}"
+            variables = {"SLURM_CONF": f"{folder}/slurm.conf", "PATH": search_path}
             environment = {**os.environ, **variables}
             _write_configuration(folder, processors, memory)
             _write_srun(folder)

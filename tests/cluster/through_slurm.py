@@ -68,8 +68,8 @@ def first_job(rule: str, cluster: dict[str, str], state: str = "RUNNING") -> str
     command = ["squeue", "--noheader", f"--states={state}", "--format=%i %k"]
     deadline = time.monotonic() + 600
     while time.monotonic() < deadline:
-        listed = subprocess.run(command, env={**os.environ, **cluster}, capture_output=True, text=True, check=False).stdout
-        for line in listed.splitlines():
+        listed = subprocess.run(command, env=os.environ | cluster, capture_output=True, text=True, check=False)
+        for line in listed.stdout.splitlines():
             number, _, comment = line.partition(" ")
             if comment.startswith(f"rule_{rule}"):
                 return number
@@ -107,7 +107,7 @@ def test_a_cancelled_job_is_submitted_again(cluster, tmp_path):
     repository = copy_repository(tmp_path / "repository")
     process = morphoskel_run(repository, MANIFEST, on=cluster)
     try:
-        subprocess.run(["scancel", first_job("generate_synthetic", cluster)], env={**os.environ, **cluster}, check=True)
+        subprocess.run(["scancel", first_job("generate_synthetic", cluster)], env=os.environ | cluster, check=True)
     except BaseException:
         kill_run(process)
         raise
@@ -124,7 +124,7 @@ def test_a_killed_run_goes_on(cluster, tmp_path):
         orphan = first_job("generate_synthetic", cluster)
     finally:
         kill_run(process)
-    subprocess.run(["scancel", orphan], env={**os.environ, **cluster}, check=True)
+    subprocess.run(["scancel", orphan], env=os.environ | cluster, check=True)
     printed = wait_for(morphoskel_run(repository, MANIFEST, on=cluster), repository)
     assert "its lock is removed" in printed
     assert (repository / MANIFEST).exists()

@@ -122,7 +122,8 @@ ALL_CORES = (
 
 # MB for a job of the chain whose workers each hold the inner points of one shape, and an upper bound on its minutes. The
 # first summand holds Snakemake, which runs twice around a job of a cluster, and the job's main process.
-MEMORY = 1000 + CONFIG.cores * (400 + CONFIG.skeleton.candidates.count * 60 // 1_000_000)
+MEMORY_OF_A_SHAPE = 400 + CONFIG.skeleton.candidates.count * 60 // 1_000_000
+MEMORY = 1000 + CONFIG.cores * MEMORY_OF_A_SHAPE
 MINUTES = 10 + CONFIG.shard_size * (1 + CONFIG.skeleton.candidates.count // 10_000_000)
 
 
@@ -142,6 +143,9 @@ EVALUATION = f"{RESULTS}/evaluation/{{dataset}}/{{split}}/{{surface}}/{{skeleton
 # Of the trainings for parts, and of what they wait for: the training with all labels is the longest job of all, and
 # would run alone in the end if it came last.
 EARLY = 10
+
+# Of a training. It does not rise with the attempts: a training that was stopped goes on where it was.
+TRAINING_MINUTES = 2880
 
 # What a training asks for beside processors.
 TRAINING_DEVICES = (

@@ -14,7 +14,8 @@ rule illustrate:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=lambda wildcards, attempt: attempt * (1500 + int(wildcards.candidates) * 400 // 1_000_000),
+        mem_mb=lambda wildcards, attempt: attempt
+        * (1500 + int(wildcards.candidates) * 400 // 1_000_000),
         runtime=rising(60),
     params:
         overview=CONFIG.figures.overview,

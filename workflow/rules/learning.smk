@@ -20,7 +20,7 @@ if CONFIG.methods.point2skeleton:
         resources:
             **TRAINING_DEVICES,
             mem_mb=rising(8000),
-            runtime=rising(2880),
+            runtime=TRAINING_MINUTES,
         params:
             dataset=section("dataset"),
             seed=CONFIG.seed,
@@ -48,7 +48,7 @@ rule train_classifier:
     resources:
         **TRAINING_DEVICES,
         mem_mb=rising(8000),
-        runtime=rising(2880),
+        runtime=TRAINING_MINUTES,
     params:
         settings=classifier_settings,
         seed=CONFIG.seed,
@@ -79,7 +79,7 @@ if CONFIG.samplers.skeleton_aware:
         resources:
             **TRAINING_DEVICES,
             mem_mb=rising(8000),
-            runtime=rising(2880),
+            runtime=TRAINING_MINUTES,
         params:
             settings=section("samplers", "skeleton_aware", "skeleton"),
             seed=CONFIG.seed,
@@ -112,7 +112,7 @@ rule train_sampler:
     resources:
         **TRAINING_DEVICES,
         mem_mb=rising(8000),
-        runtime=rising(2880),
+        runtime=TRAINING_MINUTES,
     params:
         settings=sampler_settings,
         prior=section("sampling", "prior"),

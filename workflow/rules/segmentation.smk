@@ -47,7 +47,7 @@ if strategies():
         resources:
             **TRAINING_DEVICES,
             mem_mb=rising(8000),
-            runtime=rising(2880),
+            runtime=TRAINING_MINUTES,
         params:
             settings=section("tasks", "segmentation", "network"),
             learning={
