@@ -26,7 +26,7 @@ lint: $(READY) ## format, lint and type checks alone
 unit: $(READY) ## tests alone; `make unit ARGS="-k dilation"` picks some
 	$(BIN)/pytest $(ARGS)
 
-test-cluster: slurm ## the smallest experiment through a SLURM cluster on this machine; TARGETS="table_..." for a part of it
+test-cluster: slurm ## the smallest experiment through a SLURM cluster on this machine; TARGETS="table_... key=value" for a part of it
 	tests/cluster/install_slurm
 	CLUSTER_TARGETS="$(TARGETS)" $(BIN)/pytest tests/cluster/through_slurm.py $(ARGS)
 

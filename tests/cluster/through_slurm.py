@@ -18,7 +18,7 @@ from test_workflow import copy_repository, environment
 pytestmark = pytest.mark.timeout(3 * 3600)  # on a busy machine; undisturbed, a few minutes
 
 TARGETS = os.environ.get("CLUSTER_TARGETS", "").split()
-"""What is built both ways; nothing stands for everything."""
+"""What is built both ways, and with which values; nothing stands for the whole smoke experiment."""
 
 COMPARED = ("tables", "skeletons", "medial_axis", "priors", "samples", "labelled_points", "evaluation")
 """Folders of results that do not depend on where they were computed."""
