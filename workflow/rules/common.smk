@@ -114,17 +114,21 @@ def intermediate(folder):
     return directory(folder) if CONFIG.keep_intermediates else temp(directory(folder))
 
 
-# All cores that the run may use. On a cluster there is no such number, and inside its jobs it is that of the node: there,
-# as many as a job of the chain has.
+# All cores that the run may use. On a cluster there is no such number, and inside its jobs it is that of the node:
+# there, as many as a job of the chain has.
 ALL_CORES = (
     None if workflow.remote_exec else workflow.resource_settings.cores
 ) or CONFIG.cores
 
-# MB for a job of the chain whose workers each hold the inner points of one shape, and an upper bound on its minutes. The
-# first summand holds Snakemake, which runs twice around a job of a cluster, and the job's main process.
+# MB for a job of the chain whose workers each hold the inner points of one shape. The first summand holds Snakemake,
+# which runs twice around a job of a cluster (140 MB each), and the job's main process.
 MEMORY_OF_A_SHAPE = 400 + CONFIG.skeleton.candidates.count * 60 // 1_000_000
 MEMORY = 1000 + CONFIG.cores * MEMORY_OF_A_SHAPE
-MINUTES = 10 + CONFIG.shard_size * (1 + CONFIG.skeleton.candidates.count // 10_000_000)
+
+# An upper bound on its minutes: one a shape and one more every 10 million candidates, where seconds were measured.
+MINUTES_OF_A_SHAPE = 1 + CONFIG.skeleton.candidates.count // 10_000_000
+WORKERS = max(CONFIG.cores // CONFIG.threads, 1)
+MINUTES = 10 + CONFIG.shard_size * MINUTES_OF_A_SHAPE // WORKERS
 
 
 def rising(amount):
