@@ -11,6 +11,8 @@ import yaml
 from conftest import REPOSITORY
 from test_workflow import copy_repository, environment
 
+pytestmark = [pytest.mark.workflow, pytest.mark.timeout(1800)]  # the first test waits for two plans
+
 PROFILE = yaml.safe_load((REPOSITORY / "profiles" / "slurm" / "config.yaml").read_text())
 LOCAL_RULES = {"all", "write_config"}  # run where Snakemake runs
 

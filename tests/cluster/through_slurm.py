@@ -12,8 +12,8 @@ import time
 from pathlib import Path
 
 import pytest
+from conftest import REPOSITORY
 from slurm_cluster import slurm_cluster
-from test_workflow import copy_repository, environment
 
 pytestmark = pytest.mark.timeout(3 * 3600)  # on a busy machine; undisturbed, a few minutes
 
@@ -32,10 +32,18 @@ IMPATIENT = ("--slurm-init-seconds-before-status-checks=3", "--seconds-between-s
 MANIFEST = "resources/manifest/synthetic_smoke.csv"
 
 
+def linked_repository(target: Path) -> Path:
+    """Return a folder for results of their own, whose code is this repository's, with what is compiled of it."""
+    target.mkdir()
+    for name in ("Snakefile", "workflow", "config", "profiles", "src", "environment.yml"):
+        (target / name).symlink_to(REPOSITORY / name)
+    return target
+
+
 def morphoskel_run(repository: Path, *words: str, on: dict[str, str] | None = None) -> subprocess.Popen[str]:
     """Start ``morphoskel run`` on this machine, or on a cluster; its output goes to ``run.log``."""
     options = ["--", "--profile", "profiles/slurm", *IMPATIENT] if on else []
-    variables = environment(repository) | (on or {})
+    variables = os.environ | {"PYTHONPATH": str(REPOSITORY / "src")} | (on or {})
     with (repository / "run.log").open("a") as log:
         return subprocess.Popen(
             [sys.executable, "-m", "morphoskel.cli", "run", *words, "experiment=smoke", *options],
@@ -92,7 +100,7 @@ def cluster():
 
 
 def test_the_cluster_computes_the_same_bits_as_this_machine(cluster, tmp_path):
-    here, there = (copy_repository(tmp_path / name) for name in ("here", "there"))
+    here, there = (linked_repository(tmp_path / name) for name in ("here", "there"))
     wait_for(morphoskel_run(here, *TARGETS), here)
     printed = wait_for(morphoskel_run(there, *TARGETS, on=cluster), there)
     assert "has been submitted with SLURM jobid" in printed
@@ -104,7 +112,7 @@ def test_the_cluster_computes_the_same_bits_as_this_machine(cluster, tmp_path):
 
 
 def test_a_cancelled_job_is_submitted_again(cluster, tmp_path):
-    repository = copy_repository(tmp_path / "repository")
+    repository = linked_repository(tmp_path / "repository")
     process = morphoskel_run(repository, MANIFEST, on=cluster)
     try:
         subprocess.run(["scancel", first_job("generate_synthetic", cluster)], env=os.environ | cluster, check=True)
@@ -118,7 +126,7 @@ def test_a_cancelled_job_is_submitted_again(cluster, tmp_path):
 
 
 def test_a_killed_run_goes_on(cluster, tmp_path):
-    repository = copy_repository(tmp_path / "repository")
+    repository = linked_repository(tmp_path / "repository")
     process = morphoskel_run(repository, MANIFEST, on=cluster)
     try:
         orphan = first_job("generate_synthetic", cluster)
