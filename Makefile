@@ -9,7 +9,7 @@ ASSETS := src/morphoskel/reporting/assets
 THREE := 0.187.0
 ESBUILD := 0.28.2
 
-.PHONY: all test lint unit plan test-load test-faults bench format lock viewer help clean
+.PHONY: all test lint unit plan test-load test-faults test-cluster slurm bench format lock viewer help clean
 
 all: $(READY) ## every table and figure on the embedded data set (results/demo)
 	@$(BIN)/morphoskel run
@@ -34,6 +34,13 @@ test-load: $(READY) ## as many shapes as ModelNet40 has through the chain, inter
 
 test-faults: $(READY) ## runs that are killed, damaged and starved of disk, and what a rerun makes of them (some as root only)
 	$(BIN)/pytest -m "faults or not faults" tests/faults $(ARGS)
+
+test-cluster: slurm ## the smallest experiment through a SLURM cluster on this machine; TARGETS="table_... key=value" for a part of it
+	tests/cluster/install_slurm
+	CLUSTER_TARGETS="$(TARGETS)" $(BIN)/pytest tests/cluster/through_slurm.py $(ARGS)
+
+slurm: $(READY) ## add what submits jobs to a SLURM cluster to the environment
+	$(BIN)/pip install --disable-pip-version-check --quiet --constraint requirements.lock --no-build-isolation --editable ".[slurm]"
 
 bench: $(READY) ## speed and memory beside the released computation; `make bench ARGS=scaling` picks one
 	$(BIN)/python -m benchmarks $(ARGS)

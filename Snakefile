@@ -28,6 +28,7 @@ report: "workflow/report/workflow.rst"
 
 localrules:
     skeletons,
+    write_config,
 
 
 rule skeletons:

@@ -20,8 +20,8 @@ rule figure_distances:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=2000,
-        runtime=60,
+        mem_mb=rising(2000),
+        runtime=rising(60),
     params:
         figure="distances",
         files={"table": f"{RESULTS}/tables/skeleton_reconstruction.csv"},

@@ -114,10 +114,26 @@ def intermediate(folder):
     return directory(folder) if CONFIG.keep_intermediates else temp(directory(folder))
 
 
-# MB for a job of the chain whose workers each hold the inner points of one shape, and an upper bound on its minutes.
-# Plain numbers: a function would be called anew for every job of a dry run.
-MEMORY = 600 + CONFIG.cores * (400 + CONFIG.skeleton.candidates.count * 60 // 1_000_000)
-MINUTES = 10 + CONFIG.shard_size * (1 + CONFIG.skeleton.candidates.count // 10_000_000)
+# All cores that the run may use. On a cluster there is no such number, and inside its jobs it is that of the node:
+# there, as many as a job of the chain has.
+ALL_CORES = (
+    None if workflow.remote_exec else workflow.resource_settings.cores
+) or CONFIG.cores
+
+# MB for a job of the chain whose workers each hold the inner points of one shape. The first summand holds Snakemake,
+# which runs twice around a job of a cluster (140 MB each), and the job's main process.
+MEMORY_OF_A_SHAPE = 400 + CONFIG.skeleton.candidates.count * 60 // 1_000_000
+MEMORY = 1000 + CONFIG.cores * MEMORY_OF_A_SHAPE
+
+# An upper bound on its minutes: one a shape and one more every 10 million candidates, where seconds were measured.
+MINUTES_OF_A_SHAPE = 1 + CONFIG.skeleton.candidates.count // 10_000_000
+WORKERS = max(CONFIG.cores // CONFIG.threads, 1)
+MINUTES = 10 + CONFIG.shard_size * MINUTES_OF_A_SHAPE // WORKERS
+
+
+def rising(amount):
+    """Return a resource that grows with every attempt: a job that was killed for want of memory or time gets more."""
+    return lambda wildcards, attempt: attempt * amount
 
 
 # Written out where params need them, in which Snakemake does not replace <results>.
@@ -131,6 +147,9 @@ EVALUATION = f"{RESULTS}/evaluation/{{dataset}}/{{split}}/{{surface}}/{{skeleton
 # Of the trainings for parts, and of what they wait for: the training with all labels is the longest job of all, and
 # would run alone in the end if it came last.
 EARLY = 10
+
+# Of a training. It does not rise with the attempts: a training that was stopped goes on where it was.
+TRAINING_MINUTES = 2880
 
 # What a training asks for beside processors.
 TRAINING_DEVICES = (

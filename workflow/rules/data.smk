@@ -25,10 +25,10 @@ if CONFIG.dataset.kind == "synthetic":
             f"resources/benchmarks/generate_{CONFIG.dataset.name}.tsv"
         conda:
             "../../environment.yml"
-        threads: workflow.cores or 1
+        threads: ALL_CORES
         resources:
-            mem_mb=2000,
-            runtime=120,
+            mem_mb=rising(2000),
+            runtime=rising(120),
         params:
             dataset=section("dataset"),
             seed=CONFIG.seed,
@@ -49,10 +49,10 @@ if CONFIG.parts and CONFIG.parts.kind == "synthetic":
         priority: EARLY
         conda:
             "../../environment.yml"
-        threads: workflow.cores or 1
+        threads: ALL_CORES
         resources:
-            mem_mb=2000,
-            runtime=120,
+            mem_mb=rising(2000),
+            runtime=rising(120),
         params:
             dataset=section("parts"),
             seed=CONFIG.seed,
@@ -71,8 +71,8 @@ if getattr(CONFIG.dataset, "url", None) and not CONFIG.dataset.root.exists():
         conda:
             "../../environment.yml"
         resources:
-            mem_mb=500,
-            runtime=600,
+            mem_mb=rising(1000),
+            runtime=rising(600),
         params:
             url=CONFIG.dataset.url,
             sha256=CONFIG.dataset.sha256,
@@ -90,8 +90,8 @@ if getattr(CONFIG.parts, "url", None) and not CONFIG.parts.root.exists():
         conda:
             "../../environment.yml"
         resources:
-            mem_mb=500,
-            runtime=600,
+            mem_mb=rising(1000),
+            runtime=rising(600),
         params:
             url=CONFIG.parts.url,
             sha256=CONFIG.parts.sha256,
@@ -112,8 +112,8 @@ rule write_manifest:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=500,
-        runtime=60,
+        mem_mb=rising(1000),
+        runtime=rising(60),
     params:
         dataset=dataset_section,
         seed=CONFIG.seed,

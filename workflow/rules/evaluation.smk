@@ -21,8 +21,8 @@ rule medial_axis:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=MEMORY,
-        runtime=MINUTES,
+        mem_mb=rising(MEMORY),
+        runtime=rising(MINUTES),
         shape_threads=CONFIG.threads,
     params:
         medial_axis=section("medial_axis"),
@@ -46,8 +46,8 @@ rule evaluate_skeletons:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=1000,
-        runtime=120,
+        mem_mb=rising(1000),
+        runtime=rising(120),
     params:
         dataset=dataset_section,
         balls=evaluated_balls,

@@ -20,8 +20,8 @@ rule figure_contact_sheet:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=2000,
-        runtime=60,
+        mem_mb=rising(2000),
+        runtime=rising(60),
     params:
         figure="contact_sheet",
         files={"manifest": MANIFEST},

@@ -14,8 +14,9 @@ rule illustrate:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=lambda wildcards: 1500 + int(wildcards.candidates) * 400 // 1_000_000,
-        runtime=60,
+        mem_mb=lambda wildcards, attempt: attempt
+        * (1500 + int(wildcards.candidates) * 400 // 1_000_000),
+        runtime=rising(60),
     params:
         overview=CONFIG.figures.overview,
         skeleton=section("skeleton"),
@@ -38,10 +39,10 @@ rule measure_scaling:
     conda:
         "../../environment.yml"
     # All cores, so that no other job disturbs the measurement.
-    threads: workflow.cores or 1
+    threads: ALL_CORES
     resources:
-        mem_mb=1500 + max(CONFIG.figures.scaling) * 400 // 1_000_000,
-        runtime=60,
+        mem_mb=rising(1500 + max(CONFIG.figures.scaling) * 400 // 1_000_000),
+        runtime=rising(60),
     params:
         counts=CONFIG.figures.scaling,
         repeats=CONFIG.figures.repeats,
@@ -71,8 +72,8 @@ rule figure_overview:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=2000,
-        runtime=60,
+        mem_mb=rising(2000),
+        runtime=rising(60),
     params:
         figure="overview",
         files={"illustration": illustration(OVERVIEW)},

@@ -19,8 +19,8 @@ if CONFIG.methods.point2skeleton:
         threads: CONFIG.trainer.threads
         resources:
             **TRAINING_DEVICES,
-            mem_mb=8000,
-            runtime=2880,
+            mem_mb=rising(8000),
+            runtime=TRAINING_MINUTES,
         params:
             dataset=section("dataset"),
             seed=CONFIG.seed,
@@ -47,8 +47,8 @@ rule train_classifier:
     threads: CONFIG.trainer.threads
     resources:
         **TRAINING_DEVICES,
-        mem_mb=8000,
-        runtime=2880,
+        mem_mb=rising(8000),
+        runtime=TRAINING_MINUTES,
     params:
         settings=classifier_settings,
         seed=CONFIG.seed,
@@ -78,8 +78,8 @@ if CONFIG.samplers.skeleton_aware:
         threads: CONFIG.trainer.threads
         resources:
             **TRAINING_DEVICES,
-            mem_mb=8000,
-            runtime=2880,
+            mem_mb=rising(8000),
+            runtime=TRAINING_MINUTES,
         params:
             settings=section("samplers", "skeleton_aware", "skeleton"),
             seed=CONFIG.seed,
@@ -111,8 +111,8 @@ rule train_sampler:
     threads: CONFIG.trainer.threads
     resources:
         **TRAINING_DEVICES,
-        mem_mb=8000,
-        runtime=2880,
+        mem_mb=rising(8000),
+        runtime=TRAINING_MINUTES,
     params:
         settings=sampler_settings,
         prior=section("sampling", "prior"),

@@ -17,8 +17,8 @@ rule coverage_axis:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=MEMORY,
-        runtime=MINUTES,
+        mem_mb=rising(MEMORY),
+        runtime=rising(MINUTES),
         shape_threads=CONFIG.threads,
     params:
         dataset=dataset_section,
@@ -44,8 +44,8 @@ rule l1_medial:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=MEMORY,
-        runtime=MINUTES,
+        mem_mb=rising(MEMORY),
+        runtime=rising(MINUTES),
         shape_threads=CONFIG.threads,
     params:
         dataset=dataset_section,
@@ -70,8 +70,8 @@ rule dpc:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=MEMORY,
-        runtime=MINUTES,
+        mem_mb=rising(MEMORY),
+        runtime=rising(MINUTES),
         shape_threads=CONFIG.threads,
     params:
         dataset=dataset_section,
@@ -102,8 +102,8 @@ if CONFIG.methods.point2skeleton:
             "../../environment.yml"
         threads: CONFIG.cores
         resources:
-            mem_mb=MEMORY,
-            runtime=MINUTES,
+            mem_mb=rising(MEMORY),
+            runtime=rising(MINUTES),
             shape_threads=CONFIG.threads,
         params:
             dataset=dataset_section,

@@ -25,8 +25,8 @@ rule html_report:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=3000,
-        runtime=60,
+        mem_mb=rising(3000),
+        runtime=rising(60),
     params:
         **SHAPE_SOURCE,
         titles=every_figure(),

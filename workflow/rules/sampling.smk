@@ -15,8 +15,8 @@ rule gather_clouds:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=2000,
-        runtime=60,
+        mem_mb=rising(2000),
+        runtime=rising(60),
     params:
         dataset=dataset_section,
         points="{points}",
@@ -42,8 +42,8 @@ rule local_feature_size:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=2000,
-        runtime=60,
+        mem_mb=rising(2000),
+        runtime=rising(60),
     params:
         max_failed=CONFIG.max_failed,
         digest=code_digest("sampling.prior_set"),
@@ -67,8 +67,8 @@ if CONFIG.samplers.skeleton_aware:
             "../../environment.yml"
         threads: CONFIG.trainer.threads
         resources:
-            mem_mb=8000,
-            runtime=240,
+            mem_mb=rising(8000),
+            runtime=rising(240),
         params:
             digest=code_digest("learning.skeleton_aware_training"),
         script:
@@ -90,8 +90,8 @@ rule choose_points:
         "../../environment.yml"
     threads: CONFIG.trainer.threads
     resources:
-        mem_mb=4000,
-        runtime=240,
+        mem_mb=rising(4000),
+        runtime=rising(240),
     params:
         ratios=section("sampling", "ratios"),
         draws=CONFIG.sampling.draws,
@@ -124,8 +124,8 @@ rule evaluate_samples:
         "../../environment.yml"
     threads: CONFIG.trainer.threads
     resources:
-        mem_mb=4000,
-        runtime=240,
+        mem_mb=rising(4000),
+        runtime=rising(240),
     params:
         digest=code_digest("evaluation.sampled_shapes", "sampling.choose_for_split"),
     script:

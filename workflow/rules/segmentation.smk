@@ -46,8 +46,8 @@ if strategies():
         threads: CONFIG.trainer.threads
         resources:
             **TRAINING_DEVICES,
-            mem_mb=8000,
-            runtime=2880,
+            mem_mb=rising(8000),
+            runtime=TRAINING_MINUTES,
         params:
             settings=section("tasks", "segmentation", "network"),
             learning={
@@ -96,8 +96,8 @@ if strategies():
             "../../environment.yml"
         threads: CONFIG.trainer.threads
         resources:
-            mem_mb=6000,
-            runtime=240,
+            mem_mb=rising(6000),
+            runtime=rising(240),
         params:
             completed=CONFIG.tasks.segmentation.completed,
             label_sets=CONFIG.tasks.segmentation.label_sets,

@@ -14,8 +14,8 @@ rule reconstruct:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=MEMORY,
-        runtime=MINUTES,
+        mem_mb=rising(MEMORY),
+        runtime=rising(MINUTES),
         shape_threads=CONFIG.threads,
     params:
         dataset=dataset_section,
@@ -42,8 +42,8 @@ rule watertight:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=MEMORY,
-        runtime=MINUTES,
+        mem_mb=rising(MEMORY),
+        runtime=rising(MINUTES),
         shape_threads=CONFIG.threads,
     params:
         watertight=watertight,
@@ -67,8 +67,8 @@ rule occupancy:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=MEMORY,
-        runtime=MINUTES,
+        mem_mb=rising(MEMORY),
+        runtime=rising(MINUTES),
         shape_threads=CONFIG.threads,
     params:
         candidates=candidates,
@@ -93,8 +93,8 @@ rule udf:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=MEMORY,
-        runtime=MINUTES,
+        mem_mb=rising(MEMORY),
+        runtime=rising(MINUTES),
         shape_threads=CONFIG.threads,
     params:
         candidates=candidates,
@@ -119,8 +119,8 @@ rule dilation:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=MEMORY,
-        runtime=MINUTES,
+        mem_mb=rising(MEMORY),
+        runtime=rising(MINUTES),
         shape_threads=CONFIG.threads,
     params:
         candidates=candidates,
@@ -147,8 +147,8 @@ rule select_skeleton:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=MEMORY,
-        runtime=MINUTES,
+        mem_mb=rising(MEMORY),
+        runtime=rising(MINUTES),
         shape_threads=CONFIG.threads,
     params:
         candidates=candidates,
@@ -177,8 +177,8 @@ rule cover_skeleton:
         "../../environment.yml"
     threads: CONFIG.cores
     resources:
-        mem_mb=MEMORY,
-        runtime=MINUTES,
+        mem_mb=rising(MEMORY),
+        runtime=rising(MINUTES),
         shape_threads=CONFIG.threads,
     params:
         dataset=dataset_section,

@@ -21,8 +21,8 @@ rule table_skeleton_reconstruction:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=500,
-        runtime=10,
+        mem_mb=rising(1000),
+        runtime=rising(10),
     params:
         provenance=provenance(),
         digest=code_digest("reporting.skeleton_table_files"),
@@ -51,8 +51,8 @@ rule table_surface_reconstruction:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=500,
-        runtime=10,
+        mem_mb=rising(1000),
+        runtime=rising(10),
     params:
         provenance=provenance(),
         digest=code_digest("reporting.skeleton_table_files"),
@@ -84,8 +84,8 @@ rule table_processing_time:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=500,
-        runtime=10,
+        mem_mb=rising(1000),
+        runtime=rising(10),
     params:
         provenance=provenance(),
         digest=code_digest("reporting.skeleton_table_files"),
@@ -113,8 +113,8 @@ rule table_object_classification:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=rising(2000),
+        runtime=rising(10),
     params:
         provenance=sampling_provenance(),
         digest=code_digest("reporting.sampling_table_files"),
@@ -142,8 +142,8 @@ rule table_point_cloud_retrieval:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=rising(2000),
+        runtime=rising(10),
     params:
         provenance=sampling_provenance(),
         digest=code_digest("reporting.sampling_table_files"),
@@ -171,8 +171,8 @@ rule table_skeleton_prior:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=rising(2000),
+        runtime=rising(10),
     params:
         provenance=sampling_provenance(),
         digest=code_digest("reporting.sampling_table_files"),
@@ -199,8 +199,8 @@ rule table_part_segmentation:
     conda:
         "../../environment.yml"
     resources:
-        mem_mb=2000,
-        runtime=10,
+        mem_mb=rising(2000),
+        runtime=rising(10),
     params:
         provenance=segmentation_provenance(),
         digest=code_digest("reporting.segmentation_table_files"),

@@ -13,10 +13,10 @@ rule time_stages:
     conda:
         "../../environment.yml"
     # All cores, so that no other job disturbs the measurement.
-    threads: workflow.cores or 1
+    threads: ALL_CORES
     resources:
-        mem_mb=MEMORY,
-        runtime=240,
+        mem_mb=rising(MEMORY),
+        runtime=rising(240),
     params:
         dataset=dataset_section,
         reconstruction=reconstruction,

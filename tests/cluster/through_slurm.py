@@ -1,0 +1,139 @@
+"""The smallest experiment through a SLURM cluster of one node, and what happens there when jobs or the run are killed.
+
+It takes several minutes and needs SLURM, so it is collected only where it is named: ``make test-cluster``.
+"""
+
+import hashlib
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from conftest import REPOSITORY
+from slurm_cluster import slurm_cluster
+
+pytestmark = pytest.mark.timeout(3 * 3600)  # on a busy machine; undisturbed, a few minutes
+
+TARGETS = os.environ.get("CLUSTER_TARGETS", "").split()
+"""What is built both ways, and with which values; nothing stands for the whole smoke experiment."""
+
+COMPARED = ("tables", "skeletons", "medial_axis", "priors", "samples", "labelled_points", "evaluation")
+"""Folders of results that do not depend on where they were computed."""
+
+MEASURED = ("processing_time.*", "status.csv")
+"""Files in them that hold times."""
+
+IMPATIENT = ("--slurm-init-seconds-before-status-checks=3", "--seconds-between-status-checks=2", "--latency-wait=5")
+"""Short waits, for a cluster without other users and with a file system of its own."""
+
+MANIFEST = "resources/manifest/synthetic_smoke.csv"
+
+
+def linked_repository(target: Path) -> Path:
+    """Return a folder for results of their own, whose code is this repository's, with what is compiled of it."""
+    target.mkdir()
+    for name in ("Snakefile", "workflow", "config", "profiles", "src", "environment.yml"):
+        (target / name).symlink_to(REPOSITORY / name)
+    return target
+
+
+def morphoskel_run(repository: Path, *words: str, on: dict[str, str] | None = None) -> subprocess.Popen[str]:
+    """Start ``morphoskel run`` on this machine, or on a cluster; its output goes to ``run.log``."""
+    options = ["--", "--profile", "profiles/slurm", *IMPATIENT] if on else []
+    variables = os.environ | {"PYTHONPATH": str(REPOSITORY / "src")} | (on or {})
+    with (repository / "run.log").open("a") as log:
+        return subprocess.Popen(
+            [sys.executable, "-m", "morphoskel.cli", "run", *words, "experiment=smoke", *options],
+            cwd=repository, env=variables, stdout=log, stderr=subprocess.STDOUT, text=True, start_new_session=True,
+        )  # fmt: skip
+
+
+def wait_for(process: subprocess.Popen[str], repository: Path) -> str:
+    """Wait until a run ends well, and return all that it printed; whatever happens, it has ended afterwards."""
+    try:
+        code = process.wait()
+    finally:
+        kill_run(process)
+    printed = (repository / "run.log").read_text()
+    assert code == 0, printed[-6000:]
+    return printed
+
+
+def kill_run(process: subprocess.Popen[str]) -> None:
+    """Kill Snakemake and all that it started on this machine, so that it cannot cancel what it submitted."""
+    try:
+        os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        return
+    process.wait()
+
+
+def first_job(rule: str, cluster: dict[str, str], state: str = "RUNNING") -> str:
+    """Return the number of the first job of a rule, once it is in that state."""
+    command = ["squeue", "--noheader", f"--states={state}", "--format=%i %k"]
+    deadline = time.monotonic() + 600
+    while time.monotonic() < deadline:
+        listed = subprocess.run(command, env=os.environ | cluster, capture_output=True, text=True, check=False)
+        for line in listed.stdout.splitlines():
+            number, _, comment = line.partition(" ")
+            if comment.startswith(f"rule_{rule}"):
+                return number
+        time.sleep(0.1)
+    raise AssertionError(f"no job of {rule} became {state}")
+
+
+def contents(repository: Path) -> dict[str, str]:
+    """Return the digests of the results that have to be the same wherever they were computed, by their paths."""
+    run = repository / "results" / "smoke"
+    files = [path for folder in COMPARED for path in (run / folder).rglob("*") if path.is_file()]
+    kept = [path for path in files if not any(path.match(pattern) for pattern in MEASURED)]
+    return {str(path.relative_to(run)): hashlib.sha256(path.read_bytes()).hexdigest() for path in kept}
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    with slurm_cluster() as variables:
+        yield variables
+
+
+def test_the_cluster_computes_the_same_bits_as_this_machine(cluster, tmp_path):
+    here, there = (linked_repository(tmp_path / name) for name in ("here", "there"))
+    wait_for(morphoskel_run(here, *TARGETS), here)
+    printed = wait_for(morphoskel_run(there, *TARGETS, on=cluster), there)
+    assert "has been submitted with SLURM jobid" in printed
+    assert "Trying to restart job" not in printed  # every job got along with the memory and time that it asked for
+    expected = contents(here)
+    assert any(name.startswith("tables/") for name in expected)
+    assert any(name.startswith("skeletons/") for name in expected)
+    assert contents(there) == expected
+
+
+def test_a_cancelled_job_is_submitted_again(cluster, tmp_path):
+    repository = linked_repository(tmp_path / "repository")
+    process = morphoskel_run(repository, MANIFEST, on=cluster)
+    try:
+        subprocess.run(["scancel", first_job("generate_synthetic", cluster)], env=os.environ | cluster, check=True)
+    except BaseException:
+        kill_run(process)
+        raise
+    printed = wait_for(process, repository)
+    assert "SLURM status is: 'CANCELLED'" in printed
+    assert "Trying to restart job" in printed
+    assert (repository / MANIFEST).exists()
+
+
+def test_a_killed_run_goes_on(cluster, tmp_path):
+    repository = linked_repository(tmp_path / "repository")
+    process = morphoskel_run(repository, MANIFEST, on=cluster)
+    try:
+        orphan = first_job("generate_synthetic", cluster)
+    finally:
+        kill_run(process)
+    subprocess.run(["scancel", orphan], env=os.environ | cluster, check=True)
+    printed = wait_for(morphoskel_run(repository, MANIFEST, on=cluster), repository)
+    assert "its lock is removed" in printed
+    assert (repository / MANIFEST).exists()
+    assert not list(repository.rglob("*.partial"))
