@@ -16,6 +16,7 @@ from morphoskel.errors import ConfigError
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
+    from pydantic.fields import FieldInfo
 
 
 def check_overrides(overrides: Sequence[str], folder: Path) -> None:
@@ -110,6 +111,11 @@ def _models(parents: Sequence[str], root: type[BaseModel]) -> list[type[BaseMode
     return models
 
 
+def fields_at(parts: Sequence[str]) -> list[FieldInfo]:
+    """Return the fields of the schema that a dotted key can mean (several for a data set's kinds)."""
+    return [model.model_fields[parts[-1]] for model in _models(parts[:-1], Config) if parts[-1] in model.model_fields]
+
+
 def _sections(annotation: Any) -> list[type[BaseModel]]:
     """Return the section models inside a type such as ``A | B | None``."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
@@ -150,9 +156,8 @@ def _keys_beside(location: Sequence[str]) -> list[str]:
 
 def _describe(location: Sequence[str]) -> str:
     """Return the description of a key from the schema, where it has one."""
-    for model in _models(location[:-1], Config):
-        field = model.model_fields.get(location[-1])
-        if field is not None and field.description:
+    for field in fields_at(location):
+        if field.description:
             return f" ({field.description})"
     return ""
 
