@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from morphoskel.config import Config, compose
+from morphoskel.config.workflow_path import check_clone_path
 from morphoskel.cores import available_cores
 from morphoskel.errors import MorphoSkelError
 
@@ -43,9 +44,11 @@ def run_workflow(
     Raises
     ------
     MorphoSkelError
-        If this is no copy of the repository, a run is at work in it already, or the configuration is wrong.
+        If this is no copy of the repository or one under an impossible path, a run is at work in it already, or the
+        configuration is wrong.
     """
     repository = find_repository(start or Path.cwd())
+    check_clone_path(repository)
     config = compose(overrides, repository / "config")
     release_stale_lock(repository)
     command = snakemake_command(targets, overrides, options)

@@ -1,4 +1,4 @@
-"""Overrides whose value is a path, written as it is on the command line although the grammar would read it otherwise."""
+"""Overrides whose value is a path, taken as it is written although Hydra's grammar would read it otherwise."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ _OVERRIDE = re.compile(r"(\+{0,2}[\w.]+)=(.*)", re.DOTALL)
 def quote_paths(overrides: Sequence[str]) -> list[str]:
     """Return the overrides with quotes around each path that Hydra's grammar would not read as the same text.
 
-    Spaces, commas, quotes, brackets, accents and leading signs are legal in names of files; to Hydra they mean something
-    else or nothing. What is quoted already stays so, and ``null`` and ``${...}`` keep their meaning.
+    Spaces, commas, quotes, brackets, accents and leading signs are legal in names of files; to Hydra they mean
+    something else or nothing. What is quoted already stays so, and ``null`` and ``${...}`` keep their meaning.
 
     Parameters
     ----------
