@@ -19,8 +19,8 @@ from morphoskel.formats import read_skeleton_ply, write_cloud_ply, write_mesh_pl
 
 ODD_NAMES = [
     "two words", " ", "it's", 'say "hi"', "line\nbreak", "-rf", "--help", "+", "$(touch evil)", "`touch evil`",
-    "{split}", "{}", "<results>", "*", "[a]", "a;touch evil", "a|b&c", "$HOME", r"$\frac$", "$a$ $b$", "Möbel", "Мебель",
-    "椅子", "桌子", "%s%d", "a=b", "#", "~", "a,b", "<b>", r"\input{x}", "=1+1", "a'); --",
+    "{split}", "{}", "<results>", "*", "[a]", "a;touch evil", "a|b&c", "$HOME", r"$\frac$", "$a$ $b$", "Möbel",
+    "Мебель", "椅子", "桌子", "%s%d", "a=b", "#", "~", "a,b", "<b>", r"\input{x}", "=1+1", "a'); --",
 ]  # fmt: skip
 
 

@@ -21,8 +21,12 @@ write_report(
         for (name, title), caption, path in zip(params.titles.items(), files.captions, files.figures, strict=True)
     ],
     scenes=SceneSources(
-        **as_paths(params.scenes), split=params.split, dataset=params.dataset, seed=params.seed,
-        candidates=params.candidates, ratio=params.ratio,
+        **as_paths(params.scenes),
+        split=params.split,
+        dataset=params.dataset,
+        seed=params.seed,
+        candidates=params.candidates,
+        ratio=params.ratio,
     ),
     config=Path(params.run) / "config.yaml",
     provenance=Path(snakemake.output.provenance),

@@ -6,6 +6,7 @@ from pydantic import Field, PositiveInt
 
 from morphoskel.config.sections import Section
 from morphoskel.config.workflow_path import WorkflowPath
+from morphoskel.datasets.address import Address
 
 NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9_.-]*$"
 Name = Annotated[str, Field(pattern=NAME_PATTERN)]
@@ -42,7 +43,7 @@ class ModelNet40Dataset(Section):
     categories: tuple[str, ...] | None = Field(description="classes to use; null: all")
     points: Annotated[int, Field(ge=4)] | None = Field(description="read the first so many points; null: all")
     counts: dict[str, PositiveInt] = Field(description="published number of shapes of each split, for planning")
-    url: str | None = Field(description="address of the public archive, or null")
+    url: Address | None = Field(description="address of the public archive, or null")
     sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] | None = Field(description="checksum of the archive")
 
 
@@ -59,7 +60,7 @@ class ShapeNetPartDataset(Section):
         "those that samplers were trained on"
     )
     counts: dict[str, PositiveInt] = Field(description="published number of shapes of each split, for planning")
-    url: str | None = Field(description="address of the public archive, or null")
+    url: Address | None = Field(description="address of the public archive, or null")
     sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] | None = Field(description="checksum of the archive")
 
 

@@ -70,7 +70,8 @@ def explain_validation(error: ValidationError, values: Mapping[str, Any]) -> str
             lines.append(f"{key}: missing{_describe(location)}")
         else:
             message = finding["msg"].removeprefix("Value error, ")
-            found = "" if isinstance(finding["input"], Mapping) else f", got {finding['input']!r}"
+            secret = key.endswith(".url")  # an address may hold a password
+            found = "" if secret or isinstance(finding["input"], Mapping) else f", got {finding['input']!r}"
             # A check of the whole configuration has no place and names the keys itself.
             lines.append(f"{key}: {message}{found}{_describe(location)}" if location else message)
     return "\n".join(lines)

@@ -25,7 +25,7 @@ class FolderDataset:
 
     An entry's category is the name of the sub-folder of `root` in which the file lies, or ``shape`` for files directly
     in `root`. Its id is the path below `root` without suffix, with ``-`` for each ``/`` and ``_`` for each character
-    that is not safe in file names. Where that replaces letters of other alphabets, which may be all that tells two files
+    that is not safe in file names. Where letters of other alphabets are replaced, which may be all that tells two files
     apart, eight digits made from the name follow. Two files with the same id are an error when the manifest is built.
 
     Parameters

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import logging
+import pickle
 import time
 import warnings
 from collections.abc import Iterator, Sequence
@@ -16,6 +17,7 @@ from lightning.pytorch.callbacks import Callback, Checkpoint, ModelCheckpoint
 from lightning.pytorch.loggers import TensorBoardLogger
 
 from morphoskel.atomic import atomic_file
+from morphoskel.errors import InputError
 from morphoskel.seeds import derive_seed
 
 logger = logging.getLogger(__name__)
@@ -197,6 +199,11 @@ def resumable_fit(
         Graphics cards, or processes on a processor, that share the batches of each epoch.
     progress
         Whether to show a progress bar.
+
+    Raises
+    ------
+    InputError
+        If a checkpoint there holds more than weights and plain values; nothing in it is run.
     """
     logging.getLogger("lightning.pytorch").setLevel(logging.WARNING)  # it advertises at level INFO
     checkpoints = folder / phase.name
@@ -207,8 +214,14 @@ def resumable_fit(
         _silence()
         trainer = _trainer(phase.name, epochs, folder, accelerator, devices, progress)
         last = checkpoints / LAST
-        trainer.fit(phase, ckpt_path=last if last.exists() else None, weights_only=True)
-    best = torch.load(checkpoints / "best.ckpt", map_location="cpu", weights_only=True)
+        try:
+            trainer.fit(phase, ckpt_path=last if last.exists() else None, weights_only=True)
+            best = torch.load(checkpoints / "best.ckpt", map_location="cpu", weights_only=True)
+        except pickle.UnpicklingError as error:
+            raise InputError(
+                f"{checkpoints}: a checkpoint there is damaged or holds more than weights and plain values, and is not "
+                f"read ({str(error).partition(chr(10))[0]}). Delete the folder to train anew"
+            ) from error
     phase.load_state_dict(best["state_dict"])
 
 
