@@ -24,6 +24,9 @@ ODD_NAMES = [
 ]  # fmt: skip
 
 
+SHELL_NAMES = ["it's", "line\nbreak", "-rf", "$(touch evil)", "{split}", "*", "<b>", r"$\frac$", "Möbel 椅子"]
+
+
 def test_a_folder_of_odd_names_is_listed_and_read(tmp_path):
     root = tmp_path / "it's $HOME"
     for number, name in enumerate(ODD_NAMES):
@@ -68,7 +71,7 @@ def solids(tmp_path, monkeypatch):
     """Change into a folder with meshes of odd names; whatever a shell would create there is found."""
     folder = tmp_path / "my $(touch evil) {split} Möbel"
     folder.mkdir()
-    for name in ODD_NAMES:
+    for name in SHELL_NAMES:
         write_mesh_ply(folder / f"{name}.ply", box(1.0, 0.6, 0.4))
     monkeypatch.chdir(folder)
     yield folder
@@ -80,9 +83,9 @@ SMALL = ["skeleton.candidates.count=1000", "skeleton.points=8", "skeleton.k=5", 
 
 def test_shapes_of_odd_names_are_skeletonized_shown_exported_and_compared(solids):
     assert main(["skeletonize", str(solids), "-o", "out {x}", "--method", "ms3d", *SMALL]) == 0
-    for name in ODD_NAMES:
+    for name in SHELL_NAMES:
         assert len(read_skeleton_ply(Path("out {x}") / f"{name}.ply")) == 8
-    words = [f"out {{x}}/{name}.ply" for name in ODD_NAMES]
+    words = [f"out {{x}}/{name}.ply" for name in SHELL_NAMES]
     assert main(["view", *words, "-o", "$(touch evil).html", "--no-open"]) == 0
     assert "<b>" not in Path("$(touch evil).html").read_text(encoding="utf-8")
     for suffix in (".glb", ".obj", ".ply", ".npz"):
@@ -90,8 +93,8 @@ def test_shapes_of_odd_names_are_skeletonized_shown_exported_and_compared(solids
     assert main(["compare", "./-rf.ply", "out {x}/-rf.ply"]) == 0
 
 
-@pytest.mark.parametrize("name", ["$a$ $b$", r"$\frac$"])
-def test_pictures_show_names_as_they_are(solids, name):
+def test_pictures_show_names_as_they_are(solids):
+    name = r"$\frac$"
     assert main(["skeletonize", f"{name}.ply", "-o", "out", "--method", "ms3d", "--plot", *SMALL]) == 0
     assert Path(f"out/{name}.png").stat().st_size > 1000
 
