@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 READY := $(VENV)/.ready
 ASSETS := src/morphoskel/reporting/assets
-PIP_AUDIT := 2.9.0
+PIP_AUDIT := 2.10.1
 THREE := 0.187.0
 ESBUILD := 0.28.2
 
