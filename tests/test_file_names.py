@@ -1,7 +1,6 @@
 """Names of files that a shell, a template or a table could take for something else."""
 
 import os
-import shutil
 import sys
 from pathlib import Path
 
@@ -23,6 +22,8 @@ ODD_NAMES = [
     "Мебель", "椅子", "桌子", "%s%d", "a=b", "#", "~", "a,b", "<b>", r"\input{x}", "=1+1", "a'); --",
 ]  # fmt: skip
 
+
+ODD_CATEGORIES = ["-rf", "{split} $a$", "<results>|&"]
 
 SHELL_NAMES = ["it's", "line\nbreak", "-rf", "$(touch evil)", "{split}", "*", "<b>", r"$\frac$", "Möbel 椅子"]
 
@@ -105,25 +106,41 @@ def test_a_leading_minus_is_an_option_unless_a_folder_comes_before(solids, capsy
     assert main(["skeletonize", "./-rf.ply", "-o", "out", "--method", "ms3d", *SMALL]) == 0
 
 
-@pytest.mark.workflow
-@pytest.mark.timeout(1800)
-def test_the_workflow_under_odd_paths(tmp_path):
-    """The clone, the data set and its categories all have names that mean something to a shell or to Snakemake."""
-    repository = copy_repository(tmp_path / "it's my $(touch evil) clone, Möbel")
-    root = tmp_path / 'my "data" `touch evil` 椅子\'s'
-    names = ["-rf", "{split} $a$", "<results>|&"]
-    for name in names:
+@pytest.fixture(scope="module")
+def odd_clone(tmp_path_factory):
+    """Return a clone and the words of a small experiment, both under names that mean something to a shell."""
+    base = tmp_path_factory.mktemp("odd")
+    root = base / 'my "data" `touch evil` 椅子\'s 😀'
+    for name in ODD_CATEGORIES:
         (root / name).mkdir(parents=True)
         write_cloud_ply(root / name / f"{name} $(touch evil).ply", sphere_cloud(400, seed=len(name)))
     words = ["experiment=smoke", "dataset=folder", f"dataset.root={root}", "~parts", "surface=[poisson]", "task=[]",
              "skeleton=[ms3d]", "sampler=[fps]", "skeleton.candidates.count=4000", "skeleton.points=32", "run=odd",
              "surface.poisson.depth=5", "watertight.resolution=1000", "medial_axis.samples=500"]  # fmt: skip
+    yield copy_repository(base / "it's my $(touch evil) clone, Möbel"), words
+    assert not list(base.rglob("evil"))
+
+
+@pytest.mark.workflow
+def test_a_clone_and_a_data_set_under_odd_paths(odd_clone):
+    repository, words = odd_clone
+    run(repository, "resources/manifest/folder.csv", "results/odd/config.yaml", *words)
+    records = read_manifest(repository / "resources/manifest/folder.csv")
+    assert {record.category for record in records} == set(ODD_CATEGORIES)
+
+
+@pytest.mark.workflow
+@pytest.mark.timeout(1800)
+def test_categories_of_odd_names_reach_the_tables_and_pictures(odd_clone):
+    repository, words = odd_clone
     run(repository, "table_surface_reconstruction", "figure_contact_sheet", *words)
     frame = pd.read_csv(repository / "results/odd/tables/surface_reconstruction.csv", keep_default_na=False)
     measured = frame[(frame["method"] == "Poisson") & (frame["metric"] == "cd_recon") & (frame["value"] != "not run")]
-    assert set(names) <= set(measured["group"])
+    assert set(ODD_CATEGORIES) <= set(measured["group"])
     assert np.isfinite(measured["value"].astype(float)).all()
-    assert not list(tmp_path.rglob("evil"))
-    shutil.move(repository, tmp_path / "{split}")
-    output = run(tmp_path / "{split}", "skeletons", "--", "--dry-run", check=False)
+
+
+@pytest.mark.workflow
+def test_a_clone_that_snakemake_cannot_handle(tmp_path):
+    output = run(copy_repository(tmp_path / "{split}"), "skeletons", "--", "--dry-run", check=False)
     assert "Snakemake cannot handle the character '{'" in output

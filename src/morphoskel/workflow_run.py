@@ -65,7 +65,8 @@ def snakemake_command(targets: Sequence[str], overrides: Sequence[str], options:
     if not any(option.startswith(CORE_OPTIONS) for option in options):
         command += ["--cores", str(available_cores())]
     if overrides:
-        command += ["--config", f"overrides={json.dumps(list(overrides))}"]
+        # Snakemake reads this as YAML, which does not know JSON's way to write letters as two escapes.
+        command += ["--config", f"overrides={json.dumps(list(overrides), ensure_ascii=False)}"]
     return [*command, *options]
 
 

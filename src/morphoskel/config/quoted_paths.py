@@ -23,7 +23,7 @@ def quote_paths(overrides: Sequence[str]) -> list[str]:
     overrides
         As a user writes them, for example ``dataset.root=/data/my scans (2024)``.
     """
-    return [_quoted(text) for text in overrides]
+    return [_quoted(str(text)) for text in overrides]
 
 
 def _quoted(text: str) -> str:
