@@ -242,11 +242,21 @@ def test_the_listing_of_a_large_zip(tmp_path, monkeypatch):
     with zipfile.ZipFile(tmp_path / "archive", "w") as archive:
         for number in range(66_000):
             archive.filelist.append(zipfile.ZipInfo(f"{number}.txt"))
-            archive.filelist[-1].header_offset = 0
+            archive.filelist[-1].header_offset = archive.filelist[-1].CRC = 0
         archive._didModify = True
     monkeypatch.setattr(zipfile, "ZipFile", None)
     with pytest.raises(DatasetError, match="lists too many members"):
         extract(tmp_path / "archive", tmp_path / "target", limits=ArchiveLimits(members=10_000))
+
+
+def test_a_zip_whose_end_is_hidden_in_its_end(tmp_path):
+    """The record that tells the length of the listing holds its own signature once more."""
+    write_zip(tmp_path / "archive", {f"{number}.txt": b"" for number in range(300)})
+    raw = bytearray((tmp_path / "archive").read_bytes())
+    raw[-6:-2] = b"PK\x05\x06"
+    (tmp_path / "archive").write_bytes(raw)
+    with pytest.raises(DatasetError, match="lists too many members"):
+        extract(tmp_path / "archive", tmp_path / "target", limits=SMALL)
 
 
 def test_a_tar_whose_header_would_fill_the_memory(tmp_path):

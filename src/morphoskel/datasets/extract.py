@@ -21,6 +21,7 @@ from morphoskel.errors import DatasetError
 _BLOCK = 1 << 20
 _DAMAGE = (zipfile.BadZipFile, tarfile.TarError, gzip.BadGzipFile, EOFError, zlib.error, ValueError, OverflowError)
 _COMPRESSIONS = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)  # of others, zipfile unpacks a block of any size at once
+_END_OF_ZIP = b"PK\x05\x06"
 _LISTING_ENTRY = 46  # bytes of a member in a zip's listing, without its name
 
 
@@ -167,7 +168,10 @@ def _listing_bytes(archive: Path) -> int:
     with archive.open("rb") as stream:
         stream.seek(max(archive.stat().st_size - (1 << 16) - 200, 0))
         tail = stream.read()
-    end = tail.rfind(b"PK\x05\x06")
+    without_comment = tail[-22:-18] == _END_OF_ZIP and tail.endswith(b"\0\0")
+    end = len(tail) - 22 if without_comment else tail.rfind(_END_OF_ZIP)  # where zipfile finds it, too
+    if not 0 <= end <= len(tail) - 22:
+        raise zipfile.BadZipFile("its end is damaged")
     of_large = end - 76  # the record of archives beyond 4 GiB and its locator, 56 and 20 bytes, come just before
     if of_large >= 0 and tail.startswith(b"PK\x06\x06", of_large):
         return int(struct.unpack_from("<Q", tail, of_large + 40)[0])
