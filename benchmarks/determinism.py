@@ -27,9 +27,6 @@ ELSEWHERE = {
     "TZ": "Pacific/Kiritimati",
 }
 
-BIT_EQUAL = ("surface, ", "ms3d, ", "ms3d_coverage, ", "coverage_axis, ")
-"""Kinds of outputs that may not depend on the instruction set."""
-
 
 def machines() -> dict[str, dict[str, str]]:
     """Return the environment variables that emulate each machine; those of the processor's kind change one library."""

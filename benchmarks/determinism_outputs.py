@@ -73,7 +73,7 @@ def _of_shape(name, cloud, threads) -> Iterator[tuple[str, str, npt.NDArray]]:
         yield "evaluation", method, np.array([cd_recon(distances, "correct"), hd_recon(distances)])
     sizes = local_feature_size(cloud.points, skeleton.points)
     yield "sampling", "local feature sizes", sizes
-    yield "sampling", "points chosen by lfs", lfs_points(cloud.points, sizes, 32, LfsSettings())
+    yield "sampling", "points chosen by lfs", lfs_points(cloud.points, sizes, 32, LfsSettings(exponent=1.0, floor=0.1))
     for method, settings in ON_CLOUDS.items():
         skeleton = skeletonize_shape(
             cloud, method=method, settings=settings, seed=SEED, name=name, threads=threads,

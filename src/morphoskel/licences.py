@@ -45,11 +45,11 @@ def licence_of(package: Distribution) -> str:
         Installed.
     """
     metadata = package.metadata
-    if expression := metadata.get("License-Expression"):
-        return expression
-    classifiers = [text for text in metadata.get_all("Classifier", []) if text.startswith("License :: ")]
+    if "License-Expression" in metadata:
+        return metadata["License-Expression"]
+    classifiers = [text for text in metadata.get_all("Classifier") or [] if text.startswith("License :: ")]
     names = [text.rsplit(" :: ", 1)[1] for text in classifiers if text != "License :: DFSG approved"]
-    field = (metadata.get("License") or "").strip()
+    field = metadata["License"].strip() if "License" in metadata else ""
     if names or (0 < len(field) <= _LONGEST and field != "UNKNOWN" and "\n" not in field):
         return ", ".join(names) or field
     for file in package.files or []:
