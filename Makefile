@@ -6,10 +6,11 @@ BIN := $(VENV)/bin
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
 READY := $(VENV)/.ready
 ASSETS := src/morphoskel/reporting/assets
+PIP_AUDIT := 2.10.1
 THREE := 0.187.0
 ESBUILD := 0.28.2
 
-.PHONY: all test lint unit plan test-load test-faults test-cluster slurm bench format lock viewer help clean
+.PHONY: all test lint unit plan test-load test-faults test-cluster slurm bench format lock licences audit viewer help clean
 
 all: $(READY) ## every table and figure on the embedded data set (results/demo)
 	@$(BIN)/morphoskel run
@@ -63,7 +64,17 @@ lock: ## pin the newest versions that pyproject.toml admits, in requirements.loc
 	$(PYTHON) -m venv --clear $(VENV)-lock
 	$(VENV)-lock/bin/pip install --disable-pip-version-check --quiet torch==2.13.0 hatchling editables ".[dev]"
 	$(VENV)-lock/bin/python -m morphoskel.lock
+	$(VENV)-lock/bin/python -m morphoskel.licences
 	rm -rf $(VENV)-lock
+
+licences: $(READY) ## list the licences of the pinned packages in docs/licences.md
+	$(BIN)/python -m morphoskel.licences
+
+audit: ## known vulnerabilities of the pinned packages; asks the package index, and fails if it cannot answer
+	$(PYTHON) -m venv --clear $(VENV)-audit
+	$(VENV)-audit/bin/pip install --disable-pip-version-check --quiet pip-audit==$(PIP_AUDIT)
+	$(VENV)-audit/bin/pip-audit --strict --no-deps --disable-pip --requirement requirements.lock
+	rm -rf $(VENV)-audit
 
 viewer: ## bundle the script of the interactive viewer anew, with the three.js and esbuild pinned here (needs npm)
 	scratch=$$(mktemp -d); trap 'rm -rf "$$scratch"' EXIT; \

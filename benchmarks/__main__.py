@@ -5,7 +5,7 @@ import logging
 import sys
 from pathlib import Path
 
-NAMES = ("ms3d", "scaling", "workflow", "held_out", "training_step")
+NAMES = ("ms3d", "scaling", "workflow", "held_out", "training_step", "determinism")
 FOLDER = Path(__file__).resolve().parents[1] / "results" / "bench"
 
 

@@ -54,7 +54,7 @@ def _compare(name, surface, mode, scratch, repeats):
     for number in range(repeats):
         for which, answer in answers.items():
             runs[which].append(measure(which, surface, mode, CANDIDATES, answer if number == 0 else "-"))
-    agreement = compare(*(dict(np.load(answer)) for answer in answers.values()))
+    agreement = compare(*(dict(np.load(answer, allow_pickle=False)) for answer in answers.values()))
     seconds = {which: float(np.median([run["seconds"] for run in found])) for which, found in runs.items()}
     row = {
         "mesh": name,

@@ -62,7 +62,7 @@ def list_clouds(folder, sections, shard_size):
     return records
 
 
-def run_stage(folder, sections, stage, *, shard=0, workers=2):
+def run_stage(folder, sections, stage, *, shard=0, workers=2, threads=1):
     """Run one stage on a shard of the one split there is."""
     return run_shard(
         stage,
@@ -74,15 +74,16 @@ def run_stage(folder, sections, stage, *, shard=0, workers=2):
         settings=settings_of(stage, sections),
         seed=SEED,
         cores=workers,
+        threads=threads,
         log=f"logs/{stage}/{shard}.log",
     )
 
 
-def run_chain(folder, sections, shard_size, workers):
+def run_chain(folder, sections, shard_size, workers, threads=1):
     """Run all stages on all shards, and return the digests of the skeletons."""
     for shard in sorted({record.shard for record in list_clouds(folder, sections, shard_size)}):
         for stage in STAGES:
-            run_stage(folder, sections, stage, shard=shard, workers=workers)
+            run_stage(folder, sections, stage, shard=shard, workers=workers, threads=threads)
     return skeletons(folder)
 
 

@@ -1,12 +1,16 @@
 import hashlib
 import http.server
+import io
 import logging
 import threading
+import urllib.error
+import urllib.request
+from http.client import HTTPMessage
 
 import numpy as np
 import pytest
 
-from morphoskel.datasets.download import download
+from morphoskel.datasets.download import _Redirections, download
 from morphoskel.errors import DatasetError
 
 CONTENT = np.random.default_rng(6).bytes(1_000_000)
@@ -39,7 +43,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
         else:
             self.send_response(200)
         if server.tell_length:
-            self.send_header("Content-Length", str(len(CONTENT) - start))
+            self.send_header("Content-Length", server.length or str(len(CONTENT) - start))
         self.end_headers()
         part = server.drop_after.pop(0) if server.drop_after else len(CONTENT)
         self.wfile.write(CONTENT[start : start + part])
@@ -55,6 +59,7 @@ def server(monkeypatch):
     with http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler) as running:
         running.requests, running.statuses, running.drop_after = [], [], []
         running.ranges, running.tell_length, running.shift, running.location = True, True, 0, ""
+        running.length = ""
         running.url = f"http://127.0.0.1:{running.server_port}/archive.zip"
         thread = threading.Thread(target=running.serve_forever, kwargs={"poll_interval": 0.01})
         thread.start()
@@ -206,6 +211,60 @@ def test_redirections_stay_with_http(server, fetch, tmp_path):
         with pytest.raises(DatasetError, match="cannot be fetched"):
             fetch(moved, attempts=1)
     assert names(tmp_path) == []
+
+
+def test_redirections_do_not_leave_https():
+    handler, headers = _Redirections(), HTTPMessage()
+    request = urllib.request.Request("https://example.org/a.zip")
+    followed = handler.redirect_request(request, io.BytesIO(), 302, "Found", headers, "https://example.org/b.zip")
+    assert followed.full_url == "https://example.org/b.zip"
+    for address in ("http://example.org/b.zip", "HTTP://example.org/b.zip"):
+        with pytest.raises(urllib.error.HTTPError, match="leaves HTTPS"):
+            handler.redirect_request(request, io.BytesIO(), 302, "Found", headers, address)
+
+
+def test_redirections_without_end(server, fetch):
+    server.location = "/moved"
+    with pytest.raises(DatasetError, match="cannot be fetched"):
+        fetch(server.url.replace("archive.zip", "moved"))
+    assert len(server.requests) < 20
+
+
+def test_a_damaged_beginning_is_found_and_fetched_anew(server, fetch, tmp_path):
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub/archive.zip.partial").write_bytes(bytes(300_000))
+    with pytest.raises(DatasetError, match="the file was not kept"):
+        fetch()
+    assert names(tmp_path) == []
+    assert fetch().read_bytes() == CONTENT
+
+
+@pytest.mark.parametrize("tell_length", [True, False])
+def test_a_server_that_sends_too_much(server, fetch, tmp_path, tell_length):
+    server.tell_length = tell_length
+    with pytest.raises(DatasetError, match="more than 400000 bytes"):
+        fetch(largest=400_000)
+    assert names(tmp_path) == []
+    assert fetch(largest=len(CONTENT)).read_bytes() == CONTENT
+
+
+def test_a_transfer_that_ends_early_without_a_length_is_not_taken_for_whole(server, fetch, tmp_path):
+    server.tell_length, server.drop_after = False, [300_000]
+    with pytest.raises(DatasetError, match="the file was not kept"):
+        fetch()
+    assert fetch().read_bytes() == CONTENT
+
+
+def test_a_length_that_is_no_number(server, fetch):
+    server.length = "many"
+    assert fetch().read_bytes() == CONTENT
+
+
+def test_a_password_is_not_repeated(fetch, server):
+    with pytest.raises(DatasetError, match="holds a user name or password") as caught:
+        fetch(server.url.replace("http://", "http://ada:secret@"))
+    assert "secret" not in str(caught.value)
+    assert server.requests == []
 
 
 @pytest.mark.parametrize("url", ["file:///etc/passwd", "ftp://example.org/a.zip", "archive.zip", "https://", "data:,a"])

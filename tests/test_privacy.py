@@ -13,6 +13,7 @@ from morphoskel.reporting.page.privacy import mask_values, without_absolute_path
         ("~ada/x and ~/y", "…/x and …/y"),
         ("file:///home/ada/x", "…/x"),
         ("see https://ada:key@example.org/home/ada, please", "see https://example.org/home/ada, please"),
+        ("https://example.org/a.zip?key=secret&b=c", "https://example.org/a.zip?…"),
         ("resources/data/chair.ply, a/b, and/or, 1/2, 3 / 4, n/a", None),
         ("…/chair.ply", None),
         ("ratio ~ 5, a 10 % share", None),

@@ -1,13 +1,17 @@
 import getpass
 import socket
+from pathlib import Path
 
 import pytest
+import yaml
 from page_structure import PageStructure
+from passed_on import telling, text_in
 from small_run import REASON, write_small_run
 
 from morphoskel.errors import InputError
 from morphoskel.reporting import report_files
 from morphoskel.reporting.report_files import write_report
+from morphoskel.run_provenance import write_provenance
 
 
 @pytest.fixture(scope="module")
@@ -43,6 +47,23 @@ def test_neither_folders_nor_user_nor_host_are_told(run, page):
     assert REASON.replace("/home/ada/data", "…") in text
     for name in (socket.gethostname(), getpass.getuser()):
         assert f" {name} " not in text
+
+
+def test_nothing_that_is_passed_on_tells_a_secret(tmp_path, monkeypatch):
+    """Absolute paths, what an address holds beside its path, and the environment; also in what the page embeds."""
+    monkeypatch.setenv("MORPHOSKEL_TOKEN", "secret-of-environment")
+    run = write_small_run(tmp_path)
+    values = yaml.safe_load(run["config"].read_text())
+    values["dataset"]["url"] = "https://ada:secret-name@example.org/a.zip?key=secret-query"
+    run["config"].write_text(yaml.safe_dump(values))
+    write_provenance(run["run_folder"] / "report" / "provenance.json")
+    write_report(run["run_folder"] / "report" / "index.html", **run)
+    page = text_in(run["run_folder"] / "report" / "index.html")
+    assert "root: …/data" in page
+    assert "example.org/a.zip?…" in page
+    secrets = [str(tmp_path), str(Path.home()), "/home/ada", "secret"]
+    for name in ("report", "tables", "figures"):
+        assert telling(run["run_folder"] / name, secrets) == []
 
 
 def test_a_run_without_tables_figures_and_shapes_has_a_page(run, tmp_path):

@@ -26,10 +26,12 @@ def reference(tmp_path_factory, sections):
     return folder, run_chain(folder, sections, shard_size=8, workers=1)
 
 
-@pytest.mark.parametrize(("shard_size", "workers"), [(1, 1), (3, 2)])
-def test_skeletons_do_not_depend_on_shards_or_cores(tmp_path, sections, reference, shard_size, workers):
+@pytest.mark.parametrize(("shard_size", "workers", "threads"), [(1, 1, 1), (3, 2, 1), (8, 4, 2)])
+def test_skeletons_do_not_depend_on_shards_cores_or_threads(
+    tmp_path, sections, reference, shard_size, workers, threads
+):
     assert len(reference[1]) == 4
-    assert run_chain(tmp_path, sections, shard_size, workers) == reference[1]
+    assert run_chain(tmp_path, sections, shard_size, workers, threads) == reference[1]
 
 
 def test_chain_equals_the_call_in_one_process(sections, reference):

@@ -13,6 +13,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 from conftest import REPOSITORY
+from passed_on import telling
 from workflow_copy import copy_repository, environment, run
 
 pytestmark = [pytest.mark.workflow, pytest.mark.timeout(1800)]  # the first test waits for the whole run
@@ -207,6 +208,14 @@ def test_the_page_shows_every_table_and_figure(smoke):
     assert str(smoke[0]) not in page
     for path in [*smoke[0].glob("results/smoke/figures/*.png"), *smoke[0].glob("results/smoke/tables/*.csv")]:
         assert path.stem in page
+
+
+def test_what_is_passed_on_tells_nothing_of_this_machine(smoke):
+    """Report, tables and figures, and the report that Snakemake makes of them."""
+    folder = smoke[0] / "results/smoke"
+    run(smoke[0], "experiment=smoke", "--", "--report", "results/smoke/snakemake/report.html")
+    for name in ("report", "tables", "figures", "snakemake"):
+        assert telling(folder / name, [str(smoke[0]), str(Path.home())]) == []
 
 
 def test_a_docstring_reruns_nothing(restored):

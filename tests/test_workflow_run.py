@@ -2,6 +2,7 @@ import subprocess
 import sys
 
 import pytest
+import yaml
 from conftest import REPOSITORY
 
 from morphoskel.errors import MorphoSkelError
@@ -12,6 +13,13 @@ def test_overrides_reach_snakemake_as_one_list():
     command = snakemake_command(["table_processing_time"], ["skeleton.k=30", "surface=[poisson]"], [])
     assert command[:4] == [sys.executable, "-m", "snakemake", "table_processing_time"]
     assert command[-2:] == ["--config", 'overrides=["skeleton.k=30", "surface=[poisson]"]']
+
+
+@pytest.mark.parametrize("name", ["it's", 'say "hi"', "Möbel 椅子 😀", "$(touch evil)", "{split}", "a: b", "tab\tstop"])
+def test_snakemake_reads_every_override_as_it_was_written(name):
+    """Snakemake reads the list as YAML."""
+    overrides = [f"dataset.root={name}", "seed=7"]
+    assert yaml.safe_load(snakemake_command([], overrides, [])[-1].removeprefix("overrides=")) == overrides
 
 
 @pytest.mark.parametrize("option", ["--cores=3", "-c3", "-j", "--profile"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import logging
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -173,7 +174,8 @@ def _add_sample(commands: Subcommands) -> None:
 
 
 def _is_override(word: str) -> bool:
-    return "=" in word and not Path(word).exists()
+    """Tell an override (``key=value``, or ``~key`` to leave something out) from a file or target."""
+    return ("=" in word or re.fullmatch(r"~[a-z_.]+", word) is not None) and not Path(word).exists()
 
 
 def _run(parsed: argparse.Namespace, options: list[str]) -> int:

@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from morphoskel.config import compose
+from morphoskel.config.workflow_path import check_clone_path
 from morphoskel.cores import available_cores
 from morphoskel.errors import MorphoSkelError
 
@@ -45,9 +46,11 @@ def run_workflow(
     Raises
     ------
     MorphoSkelError
-        If this is no copy of the repository, a run is at work in it already, or the configuration is wrong.
+        If this is no copy of the repository or one under an impossible path, a run is at work in it already, or the
+        configuration is wrong.
     """
     repository = find_repository(start or Path.cwd())
+    check_clone_path(repository)
     compose(overrides, repository / "config")
     release_stale_lock(repository)
     command = snakemake_command(targets, overrides, options)
@@ -67,7 +70,8 @@ def snakemake_command(targets: Sequence[str], overrides: Sequence[str], options:
     if not any(option.startswith(CORE_OPTIONS) for option in options):
         command += ["--cores", str(available_cores())]
     if overrides:
-        command += ["--config", f"overrides={json.dumps(list(overrides))}"]
+        # Snakemake reads this as YAML, which does not know JSON's way to write letters as two escapes.
+        command += ["--config", f"overrides={json.dumps(list(overrides), ensure_ascii=False)}"]
     return [*command, *options]
 
 

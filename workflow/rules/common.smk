@@ -5,9 +5,12 @@ from itertools import chain
 from pathlib import Path
 
 from morphoskel.config import compose
+from morphoskel.config.workflow_path import check_clone_path
 from morphoskel.datasets.configured import count_shapes
 from morphoskel.methods import CLOUD_METHODS, MORPHOLOGICAL
 from morphoskel.provenance import code_digest, content_hash, remember_digests
+
+check_clone_path(Path(workflow.basedir))
 
 # The scripts import the library from this clone, also inside an environment that Snakemake deploys.
 os.environ.update(PYTHONPATH=f"{workflow.basedir}/src")

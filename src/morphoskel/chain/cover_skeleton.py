@@ -19,8 +19,8 @@ HEAVY_IMPORTS = (
 
 def run(task: Task) -> Details:
     """Choose balls for the points of the cloud and write them as a skeleton."""
-    udf = np.load(task.read("udf", ".npy"))
-    residues = residue(udf, np.load(task.read("dilation", ".npy")))
+    udf = np.load(task.read("udf", ".npy"), allow_pickle=False)
+    residues = residue(udf, np.load(task.read("dilation", ".npy"), allow_pickle=False))
     skeleton = coverage_skeleton(
         read_inner_points(task),
         udf,

@@ -16,7 +16,7 @@ HEAVY_IMPORTS = (
 
 def run(task: Task) -> Details:
     """Dilate the UDF over the k-nearest-neighbour structuring element and write it as float32."""
-    udf = np.load(task.read("udf", ".npy"))
+    udf = np.load(task.read("udf", ".npy"), allow_pickle=False)
     dilated = dilation(read_inner_points(task), udf, task.settings["k"], threads=task.threads)
     np.save(task.write(".npy"), dilated)
     return {"local_maxima": int((dilated == udf).sum())}

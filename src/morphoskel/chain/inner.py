@@ -27,7 +27,7 @@ def read_inner_points(task: Task) -> npt.NDArray[np.float32]:
     """Return the shape's inner points, ``(M, 3)`` float32 in spatial order."""
     candidates = read_candidates(task)
     tiles = candidates.tiles_per_axis**3
-    with np.load(task.read("occupancy", ".npz")) as stored:
+    with np.load(task.read("occupancy", ".npz"), allow_pickle=False) as stored:
         low, high = np.unpackbits(stored["states"], count=2 * tiles).reshape(2, tiles)
         crossed_mask = np.unpackbits(stored["crossed_mask"], count=int(stored["crossed"])).astype(bool)
     states = (low | high << 1).astype(np.uint8)
@@ -36,5 +36,5 @@ def read_inner_points(task: Task) -> npt.NDArray[np.float32]:
 
 def read_candidates(task: Task) -> Candidates:
     """Return the candidates that were tested."""
-    with np.load(task.read("occupancy", ".npz")) as stored:
+    with np.load(task.read("occupancy", ".npz"), allow_pickle=False) as stored:
         return Candidates(stored["lower"], stored["upper"], **task.settings["candidates"], seed=int(stored["seed"]))

@@ -15,8 +15,8 @@ HEAVY_IMPORTS = (
 
 def run(task: Task) -> Details:
     """Select the inner points of smallest residue and write them as a skeleton."""
-    udf = np.load(task.read("udf", ".npy"))
-    dilated = np.load(task.read("dilation", ".npy"))
+    udf = np.load(task.read("udf", ".npy"), allow_pickle=False)
+    dilated = np.load(task.read("dilation", ".npy"), allow_pickle=False)
     skeleton = skeleton_of(read_inner_points(task), udf, dilated, task.settings["points"])
     write_skeleton_ply(task.write(".ply"), skeleton)
     return {"balls": len(skeleton), "wanted": int(task.settings["points"])}

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from morphoskel.config.explain import check_overrides, explain_validation
+from morphoskel.config.quoted_paths import quote_paths
 from morphoskel.config.schema import Config
 from morphoskel.errors import ConfigError
 
@@ -27,7 +28,7 @@ def compose(overrides: Sequence[str] = (), folder: Path | None = None) -> Config
     Parameters
     ----------
     overrides
-        Hydra overrides such as ``experiment=paper`` or ``skeleton.k=30``.
+        Hydra overrides such as ``experiment=paper`` or ``skeleton.k=30``; paths need no quotes of Hydra's.
     folder
         The Hydra tree; by default :func:`config_folder`.
 
@@ -53,6 +54,7 @@ def compose(overrides: Sequence[str] = (), folder: Path | None = None) -> Config
     folder = (folder or config_folder()).resolve()
     if isinstance(overrides, str):
         raise ConfigError(f"overrides: expected a list such as ['experiment=demo'], got the text {overrides!r}")
+    overrides = quote_paths(overrides)
     check_overrides(overrides, folder)
     try:
         with initialize_config_dir(config_dir=str(folder), version_base="1.3"):

@@ -1,11 +1,12 @@
 """Configuration sections of the data sets."""
 
-from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field, PositiveInt
 
 from morphoskel.config.sections import Section
+from morphoskel.config.workflow_path import WorkflowPath
+from morphoskel.datasets.address import Address
 
 NAME_PATTERN = r"^[A-Za-z0-9][A-Za-z0-9_.-]*$"
 Name = Annotated[str, Field(pattern=NAME_PATTERN)]
@@ -17,7 +18,7 @@ class SyntheticDataset(Section):
 
     kind: Literal["synthetic"]
     name: Name = Field(description="names the data set's folders and its rows in the tables")
-    root: Path = Field(description="folder that the shapes are written to")
+    root: WorkflowPath = Field(description="folder that the shapes are written to")
     categories: tuple[str, ...] | None = Field(description="categories to make; null: all 17")
     per_category: dict[Name, PositiveInt] = Field(description="shapes a category, for each split")
     points: Annotated[int, Field(ge=4)] = Field(description="points a cloud")
@@ -28,7 +29,7 @@ class Point2SkeletonDataset(Section):
 
     kind: Literal["point2skeleton"]
     name: Name = Field(description="names the data set's folders and its rows in the tables")
-    root: Path = Field(description="folder with pointclouds/ and data-split/")
+    root: WorkflowPath = Field(description="folder with pointclouds/ and data-split/")
     categories: tuple[str, ...] | None = Field(description="categories to use; null: all")
     counts: dict[str, PositiveInt] = Field(description="published number of shapes of each split, for planning")
 
@@ -38,11 +39,11 @@ class ModelNet40Dataset(Section):
 
     kind: Literal["modelnet40"]
     name: Name = Field(description="names the data set's folders and its rows in the tables")
-    root: Path = Field(description="folder with modelnet40_train.txt and one folder a class")
+    root: WorkflowPath = Field(description="folder with modelnet40_train.txt and one folder a class")
     categories: tuple[str, ...] | None = Field(description="classes to use; null: all")
     points: Annotated[int, Field(ge=4)] | None = Field(description="read the first so many points; null: all")
     counts: dict[str, PositiveInt] = Field(description="published number of shapes of each split, for planning")
-    url: str | None = Field(description="address of the public archive, or null")
+    url: Address | None = Field(description="address of the public archive, or null")
     sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] | None = Field(description="checksum of the archive")
 
 
@@ -51,7 +52,7 @@ class ShapeNetPartDataset(Section):
 
     kind: Literal["shapenetpart"]
     name: Name = Field(description="names the data set's folders and its rows in the tables")
-    root: Path = Field(description="folder with synsetoffset2category.txt and one folder a category")
+    root: WorkflowPath = Field(description="folder with synsetoffset2category.txt and one folder a category")
     categories: tuple[str, ...] | None = Field(description="categories to use; null: all")
     allow_missing: bool = Field(description="leave out, and count, listed shapes that the folder lacks")
     axes: tuple[Axis, Axis, Axis] = Field(
@@ -59,7 +60,7 @@ class ShapeNetPartDataset(Section):
         "those that samplers were trained on"
     )
     counts: dict[str, PositiveInt] = Field(description="published number of shapes of each split, for planning")
-    url: str | None = Field(description="address of the public archive, or null")
+    url: Address | None = Field(description="address of the public archive, or null")
     sha256: Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")] | None = Field(description="checksum of the archive")
 
 
@@ -68,7 +69,7 @@ class ClassTreeDataset(Section):
 
     kind: Literal["class_tree"]
     name: Name = Field(description="names the data set's folders and its rows in the tables")
-    root: Path = Field(description="folder with <class>/{train,test}/<file>")
+    root: WorkflowPath = Field(description="folder with <class>/{train,test}/<file>")
     categories: tuple[str, ...] | None = Field(description="classes to use; null: all")
     points: Annotated[int, Field(ge=4)] = Field(description="points sampled on each mesh")
 
@@ -78,7 +79,7 @@ class FolderDataset(Section):
 
     kind: Literal["folder"]
     name: Name = Field(description="names the data set's folders and its rows in the tables")
-    root: Path = Field(description="folder with clouds or meshes")
+    root: WorkflowPath = Field(description="folder with clouds or meshes")
     points: Annotated[int, Field(ge=4)] = Field(description="points sampled on each mesh")
 
 

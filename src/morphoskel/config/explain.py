@@ -16,6 +16,7 @@ from morphoskel.errors import ConfigError
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
+    from pydantic.fields import FieldInfo
 
 
 def check_overrides(overrides: Sequence[str], folder: Path) -> None:
@@ -69,7 +70,8 @@ def explain_validation(error: ValidationError, values: Mapping[str, Any]) -> str
             lines.append(f"{key}: missing{_describe(location)}")
         else:
             message = finding["msg"].removeprefix("Value error, ")
-            found = "" if isinstance(finding["input"], Mapping) else f", got {finding['input']!r}"
+            secret = key.endswith(".url")  # an address may hold a password
+            found = "" if secret or isinstance(finding["input"], Mapping) else f", got {finding['input']!r}"
             # A check of the whole configuration has no place and names the keys itself.
             lines.append(f"{key}: {message}{found}{_describe(location)}" if location else message)
     return "\n".join(lines)
@@ -108,6 +110,11 @@ def _models(parents: Sequence[str], root: type[BaseModel]) -> list[type[BaseMode
             for inner in _sections(model.model_fields[part].annotation)
         ]
     return models
+
+
+def fields_at(parts: Sequence[str]) -> list[FieldInfo]:
+    """Return the fields of the schema that a dotted key can mean (several for a data set's kinds)."""
+    return [model.model_fields[parts[-1]] for model in _models(parts[:-1], Config) if parts[-1] in model.model_fields]
 
 
 def _sections(annotation: Any) -> list[type[BaseModel]]:
@@ -150,9 +157,8 @@ def _keys_beside(location: Sequence[str]) -> list[str]:
 
 def _describe(location: Sequence[str]) -> str:
     """Return the description of a key from the schema, where it has one."""
-    for model in _models(location[:-1], Config):
-        field = model.model_fields.get(location[-1])
-        if field is not None and field.description:
+    for field in fields_at(location):
+        if field.description:
             return f" ({field.description})"
     return ""
 

@@ -3,7 +3,6 @@
 Unknown keys are refused everywhere. Sections are frozen; a rule receives only the sections that it reads.
 """
 
-from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, PositiveFloat, PositiveInt, model_validator
@@ -12,6 +11,7 @@ from morphoskel.config.dataset_sections import Dataset, Name
 from morphoskel.config.sampling_sections import Samplers, Sampling, Tasks
 from morphoskel.config.sections import Section, section_of
 from morphoskel.config.surface_sections import Surface
+from morphoskel.config.workflow_path import WorkflowPath
 from morphoskel.networks.point2skeleton_settings import Point2SkeletonSettings
 from morphoskel.sampling.samplers import LEARNED
 from morphoskel.skeleton.dpc.settings import DeepPointsSettings
@@ -72,7 +72,7 @@ Network: Any = section_of(Point2SkeletonSettings)
 class Point2Skeleton(Section):
     """Point2Skeleton."""
 
-    trained: Path | None = Field(description="a trained network's file; null: train one on the training split")
+    trained: WorkflowPath | None = Field(description="a trained network's file; null: train one on the training split")
     validation_share: Annotated[float, Field(gt=0, lt=1)] = Field(
         description="share of the training shapes held out to choose the epoch"
     )
@@ -111,7 +111,7 @@ class Evaluation(Section):
 class MedialAxis(Section):
     """The reference medial axis of CD-MAT and HD-MAT."""
 
-    folder: Path | None = Field(description="folder with <shape>_mat.ply or <shape>.ma files; null: computed")
+    folder: WorkflowPath | None = Field(description="folder with <shape>_mat.ply or <shape>.ma files; null: computed")
     surface: str = Field(description="the surface reconstruction that it is computed from")
     samples: Annotated[int, Field(ge=100)] = Field(description="points on the surface, each with a shrinking ball")
     separation_angle: Annotated[float, Field(ge=0, lt=180)] = Field(

@@ -11,14 +11,21 @@ import urllib.request
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
-from urllib.parse import urlsplit
+from typing import IO, TYPE_CHECKING, NoReturn
 
+from morphoskel.datasets.address import check_address
 from morphoskel.datasets.extract import extract
 from morphoskel.datasets.manifest import checksum
 from morphoskel.errors import DatasetError
 from morphoskel.progress import count_up
 
+if TYPE_CHECKING:
+    from http.client import HTTPMessage
+
 __all__ = ["download", "extract"]
+
+LARGEST = 1 << 37
+"""Bytes of an archive, at most: a hundred times the largest of the data sets."""
 
 _BLOCK = 1 << 18
 _TIMEOUT = 60.0  # seconds without a byte before the connection counts as dropped
@@ -31,7 +38,14 @@ class _Dropped(Exception):  # noqa: N818 - never leaves this module
 
 
 def download(
-    url: str, target: Path, *, sha256: str | None, progress: bool = True, attempts: int = 6, backoff: float = 1.0
+    url: str,
+    target: Path,
+    *,
+    sha256: str | None,
+    progress: bool = True,
+    attempts: int = 6,
+    backoff: float = 1.0,
+    largest: int = LARGEST,
 ) -> None:
     """Fetch `url` into `target`, and go on where an earlier attempt stopped.
 
@@ -52,12 +66,15 @@ def download(
         How often to try in a row without receiving a single byte.
     backoff
         Pause before the second attempt in seconds; doubles with each further one.
+    largest
+        Bytes that are taken, at most; a server could send without end.
 
     Raises
     ------
     DatasetError
-        If the address is not HTTP(S), the server refuses, the connection keeps dropping, or the checksum is not
-        confirmed or wrong; after a wrong checksum nothing is kept.
+        If the address is not HTTP(S) or holds a password, the server refuses, sends too much or leads from HTTPS to
+        HTTP, the connection keeps dropping, or the checksum is not confirmed or wrong; after a wrong checksum nothing
+        is kept.
     """
     _check_arguments(url, sha256)
     expected = sha256.lower() if sha256 else None
@@ -73,7 +90,7 @@ def download(
     if not unverified.is_file():
         partial = target.with_name(f"{target.name}.partial")
         target.parent.mkdir(parents=True, exist_ok=True)
-        _fetch(url, partial, progress=progress, attempts=attempts, backoff=backoff)
+        _fetch(url, partial, progress=progress, attempts=attempts, backoff=backoff, largest=largest)
         partial.replace(unverified)
     found = checksum(unverified, progress=progress)
     if expected is None:
@@ -89,9 +106,10 @@ def download(
 
 def _check_arguments(url: str, sha256: str | None) -> None:
     """Refuse what cannot be fetched or compared."""
-    parts = urlsplit(url)
-    if parts.scheme not in ("http", "https") or not parts.hostname:
-        raise DatasetError(f"{url}: only addresses http://... and https://... can be fetched")
+    try:
+        check_address(url)
+    except ValueError as error:
+        raise DatasetError(str(error)) from error
     if sha256 is not None and not re.fullmatch(r"[0-9a-fA-F]{64}", sha256):
         raise DatasetError(f"sha256 of {url}: expected 64 hexadecimal digits, got {sha256!r}")
 
@@ -102,13 +120,13 @@ def _require_sum(path: Path, found: str, expected: str, mend: str) -> None:
         raise DatasetError(f"{path}: expected sha256 {expected}, found {found}; {mend}")
 
 
-def _fetch(url: str, partial: Path, *, progress: bool, attempts: int, backoff: float) -> None:
+def _fetch(url: str, partial: Path, *, progress: bool, attempts: int, backoff: float, largest: int) -> None:
     """Let `partial` grow until it is whole; a failure counts only if not even one byte came."""
     failures = 0
     while True:
         before = _size(partial)
         try:
-            _transfer(url, partial, progress)
+            _transfer(url, partial, progress, largest)
         except urllib.error.HTTPError as error:
             reason, fatal = f"HTTP {error.code} {error.reason}", error.code not in _WORTH_A_RETRY
             error.close()
@@ -127,8 +145,8 @@ def _fetch(url: str, partial: Path, *, progress: bool, attempts: int, backoff: f
         time.sleep(backoff * 2 ** max(failures - 1, 0))
 
 
-def _transfer(url: str, partial: Path, progress: bool) -> None:
-    """Append to `partial` what it lacks."""
+def _transfer(url: str, partial: Path, progress: bool, largest: int) -> None:
+    """Append to `partial` what it lacks, up to `largest` bytes in all."""
     have = _size(partial)
     request = urllib.request.Request(url, headers={"Range": f"bytes={have}-"} if have else {})
     try:
@@ -147,14 +165,29 @@ def _transfer(url: str, partial: Path, progress: bool) -> None:
             raise _Dropped("the server sent another part than asked for")
         resumed = response.status == 206
         have = have if resumed else 0  # a server without ranges sends all from the beginning
-        length = response.headers.get("Content-Length")
-        total = have + int(length) if length else None
+        total = None if response.length is None else have + response.length
         with partial.open("ab" if resumed else "wb") as stream, _counter(partial, have, total, progress) as advance:
             while block := response.read(_BLOCK):
                 stream.write(block)
                 advance(len(block))
+                if stream.tell() > largest:
+                    break
+    if _size(partial) > largest:
+        partial.unlink()
+        raise DatasetError(f"{url}: the server sends more than {largest} bytes; fetch it by hand if it is right")
     if total is not None and _size(partial) < total:
         raise _Dropped(f"the connection ended at {_size(partial)} of {total} bytes")
+
+
+class _Redirections(urllib.request.HTTPRedirectHandler):
+    """Follow redirections, but not from HTTPS to HTTP."""
+
+    def redirect_request(
+        self, req: urllib.request.Request, fp: IO[bytes], code: int, msg: str, headers: HTTPMessage, newurl: str
+    ) -> urllib.request.Request | None:
+        if req.type == "https" and not newurl.lower().startswith("https:"):
+            raise urllib.error.HTTPError(newurl, code, "the redirection leaves HTTPS", headers, fp)
+        return super().redirect_request(req, fp, code, msg, headers, newurl)
 
 
 def _opener() -> urllib.request.OpenerDirector:
@@ -164,7 +197,7 @@ def _opener() -> urllib.request.OpenerDirector:
         urllib.request.ProxyHandler(),
         urllib.request.HTTPHandler(),
         urllib.request.HTTPSHandler(),
-        urllib.request.HTTPRedirectHandler(),
+        _Redirections(),
         urllib.request.HTTPDefaultErrorHandler(),
         urllib.request.HTTPErrorProcessor(),
         urllib.request.UnknownHandler(),

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
+import unicodedata
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,7 +25,8 @@ class FolderDataset:
 
     An entry's category is the name of the sub-folder of `root` in which the file lies, or ``shape`` for files directly
     in `root`. Its id is the path below `root` without suffix, with ``-`` for each ``/`` and ``_`` for each character
-    that is not safe in file names; two files with the same id are an error when the manifest is built.
+    that is not safe in file names. Where letters of other alphabets are replaced, which may be all that tells two files
+    apart, eight digits made from the name follow. Two files with the same id are an error when the manifest is built.
 
     Parameters
     ----------
@@ -117,5 +120,7 @@ class FolderDataset:
         return parts[0] if len(parts) > 1 else "shape"
 
     def _identify(self, path: Path) -> str:
-        name = "-".join(path.relative_to(self.root).with_suffix("").parts)
-        return re.sub(r"[^A-Za-z0-9._+-]", "_", name)
+        name = unicodedata.normalize("NFC", "-".join(path.relative_to(self.root).with_suffix("").parts))
+        safe = re.sub(r"^[+-]|[^A-Za-z0-9._+-]", "_", name)
+        digits = hashlib.sha256(name.encode(errors="surrogateescape")).hexdigest()[:8]
+        return safe if name.isascii() else f"{safe}-{digits}"

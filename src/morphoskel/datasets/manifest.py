@@ -202,8 +202,13 @@ def _check_entries(ordered: Sequence[Entry]) -> None:
             if not SAFE_NAME.fullmatch(name) or name.endswith((".", ".partial")):
                 raise DatasetError(
                     f"{entry.path}: its {what} {name!r} is unsafe as a file name; rename the file so that it has "
-                    "only letters a-z, digits and _ . + - and does not start with a dot"
+                    "at most 200 letters a-z, digits and _ . + -, starts with a letter, digit or _, and does not end "
+                    "with a dot"
                 )
+        if not _is_text(entry.path):
+            raise DatasetError(
+                f"{str(entry.path)!r}: its name is not encoded as UTF-8, so that it cannot be listed; rename the file"
+            )
         other = seen.setdefault(entry.id, entry)
         if other is not entry:
             raise DatasetError(
@@ -216,6 +221,15 @@ def _check_entries(ordered: Sequence[Entry]) -> None:
             f"{missing[0]}: file is missing, {len(missing)} missing in all; fetch the data set again, or repair "
             "its split lists"
         )
+
+
+def _is_text(path: Path) -> bool:
+    """Tell whether a path can be written to a text file; names in other encodings than UTF-8 cannot."""
+    try:
+        str(path).encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _parse_row(path: Path, line: int, row: list[str]) -> ShapeRecord:

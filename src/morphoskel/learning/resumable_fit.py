@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import logging
+import pickle
 import time
 import warnings
 from collections.abc import Iterator, Sequence
@@ -17,6 +18,7 @@ from lightning.pytorch.loggers import TensorBoardLogger
 
 from morphoskel.atomic import atomic_file
 from morphoskel.checksums import checked_file, intact
+from morphoskel.errors import InputError
 from morphoskel.learning.damaged_checkpoints import discard_damaged
 from morphoskel.progress import shows_bars
 from morphoskel.seeds import derive_seed
@@ -202,6 +204,11 @@ def resumable_fit(
         Graphics cards, or processes on a processor, that share the batches of each epoch.
     progress
         Whether to show a progress bar, if there is a terminal.
+
+    Raises
+    ------
+    InputError
+        If a checkpoint there holds more than weights and plain values; nothing in it is run.
     """
     logging.getLogger("lightning.pytorch").setLevel(logging.WARNING)  # it advertises at level INFO
     checkpoints = folder / phase.name
@@ -213,8 +220,14 @@ def resumable_fit(
         _silence()
         trainer = _trainer(phase.name, epochs, folder, accelerator, devices, progress)
         last = checkpoints / LAST
-        trainer.fit(phase, ckpt_path=last if last.exists() else None, weights_only=True)
-    best = torch.load(checkpoints / BEST, map_location="cpu", weights_only=True)
+        try:
+            trainer.fit(phase, ckpt_path=last if last.exists() else None, weights_only=True)
+            best = torch.load(checkpoints / BEST, map_location="cpu", weights_only=True)
+        except pickle.UnpicklingError as error:
+            raise InputError(
+                f"{checkpoints}: a checkpoint there holds more than weights and plain values, and is not read "
+                f"({str(error).partition(chr(10))[0]}). Delete the folder to train anew"
+            ) from error
     phase.load_state_dict(best["state_dict"])
 
 

@@ -80,7 +80,8 @@ def figure_page(paths: Sequence[Path], width: float, height: float) -> Iterator[
 def show(axes: Axes, picture: Image, title: str = "") -> None:
     """Put a rendered picture into axes, without frame or ticks."""
     axes.imshow(picture, interpolation="antialiased")
-    axes.set(xticks=[], yticks=[], frame_on=False, title=title)
+    axes.set(xticks=[], yticks=[], frame_on=False)
+    axes.set_title(title, parse_math=False)  # names of files may hold dollars
 
 
 def cropped(pictures: Sequence[Image], margin: int = 6) -> list[Image]:

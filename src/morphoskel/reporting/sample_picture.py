@@ -75,7 +75,9 @@ def draw_sample(
     axes.scatter(right, up, DOT_AREA, of_cloud, lw=0)
     order = np.argsort(depth[chosen])  # the nearest are drawn last
     axes.scatter(right[chosen][order], up[chosen][order], CHOSEN_AREA, colours[order], edgecolors="white", lw=0.6)
-    axes.set(xticks=[], yticks=[], frame_on=False, title=f"{title}: {len(chosen):,} of {len(cloud):,} points")
+    axes.set(xticks=[], yticks=[], frame_on=False)
+    text = f"{title}: {len(chosen):,} of {len(cloud):,} points"
+    axes.set_title(text, parse_math=False)  # a file's name may hold dollars
     axes.set_aspect("equal")
     with atomic_file(path) as partial:
         figure.savefig(partial, dpi=view.pixels / INCHES, format="png")

@@ -56,7 +56,7 @@ def draw_skeleton(
     panels = figure.subplots(1, len(shown), squeeze=False)[0]
     for panel, picture, text in zip(panels, shown, titles, strict=True):
         panel.imshow(picture)
-        panel.set_title(text)
+        panel.set_title(text, parse_math=False)  # a file's name may hold dollars
         panel.set_axis_off()
     figure.colorbar(scale, ax=panels[-1], label="ball radius, in the shape's unit", shrink=0.8, pad=0.02)
     with atomic_file(path) as partial:

@@ -137,15 +137,15 @@ def _draw_row(row: Row, of_row: Sequence[Axes], ratio: float, level_name: bool) 
         axes.set(xticks=[], yticks=[], frame_on=False, anchor="W")
     if level_name:
         name = "\n".join(wrap(row.name, LEVEL_LETTERS, break_long_words=False))
-        of_row[0].set_ylabel(name, rotation="horizontal", ha="right", va="center")
+        of_row[0].set_ylabel(name, rotation="horizontal", ha="right", va="center", parse_math=False)
     else:
-        of_row[0].set_ylabel(row.name)
+        of_row[0].set_ylabel(row.name, parse_math=False)
     for axes, panel in zip(of_row, row.panels, strict=False):
         _fill(axes, panel, ratio)
     for axes, title in zip(of_row, row.titles, strict=False):
-        axes.set_title(title, pad=2)
+        axes.set_title(title, pad=2, parse_math=False)  # names of files may hold dollars
     for axes, note in zip(of_row, row.notes, strict=False):
-        axes.set_xlabel(note, fontsize=7, labelpad=1)
+        axes.set_xlabel(note, fontsize=7, labelpad=1, parse_math=False)
     if row.scale:
         _add(row.scale, of_row)
 
@@ -160,7 +160,7 @@ def _fill(axes: Axes, panel: Image | str, ratio: float) -> None:
     """Put a picture or words into axes that are `ratio` times as high as wide."""
     axes.set_box_aspect(ratio)
     if isinstance(panel, str):
-        axes.text(0.5, 0.5, panel, ha="center", va="center", fontsize=7, transform=axes.transAxes)
+        axes.text(0.5, 0.5, panel, ha="center", va="center", fontsize=7, transform=axes.transAxes, parse_math=False)
         return
     high, wide = panel.shape[:2]
     axes.imshow(panel, interpolation="antialiased", aspect="auto")

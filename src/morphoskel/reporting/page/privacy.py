@@ -17,7 +17,9 @@ _FOUND = re.compile(f"{_ADDRESS}|{_PATH}")
 
 
 def without_absolute_paths(text: str) -> str:
-    """Return `text` with ``…/name`` in the place of every absolute path, and web addresses without user names.
+    """Return `text` with ``…/name`` in the place of every absolute path, and web addresses without what may be secret.
+
+    Of addresses, user names and queries are left out.
 
     Examples
     --------
@@ -40,7 +42,7 @@ def mask_values(values: Any) -> Any:
 
 def _masked(match: re.Match[str]) -> str:
     if match["address"]:
-        return re.sub(r"//[^/@]*@", "//", match["address"])
+        return re.sub(r"\?.*", f"?{ELSEWHERE}", re.sub(r"//[^/@]*@", "//", match["address"]))
     return _ending(match["path"])
 
 

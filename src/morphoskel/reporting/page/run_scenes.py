@@ -146,7 +146,10 @@ def _inner_layer(sources: SceneSources, record: ShapeRecord) -> Layer:
     folders = {stage: _homes(sources.inner[stage])[record.id] for stage in STAGES}
     task = Task(record, folders, folders["occupancy"], {"candidates": sources.candidates}, seed=0)
     points = read_inner_points(task)
-    residues = residue(np.load(task.read("udf", ".npy")), np.load(task.read("dilation", ".npy"))).astype(np.float64)
+    residues = residue(
+        np.load(task.read("udf", ".npy"), allow_pickle=False),
+        np.load(task.read("dilation", ".npy"), allow_pickle=False),
+    ).astype(np.float64)
     step = -(-len(points) // INNER_POINTS)
     scalar = Scalar(INNER_LABEL, residues[::step], (0.0, float(np.quantile(residues, RESIDUE_QUANTILE))))
     return Layer(
