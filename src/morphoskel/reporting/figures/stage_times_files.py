@@ -40,7 +40,7 @@ def draw_stage_times_from_files(paths: Sequence[Path], times: Sequence[Path], pu
     InputError
         If there is no file, one cannot be read, or a shape has two times for a stage.
     """
-    rows = _read_times(times)
+    rows = read_times(times)
     bars, published = stage_times(rows), published_means(set(rows["category"]), published_folder)
     with figure_page(paths, TEXT_WIDTH, MARGINS + ROW_HEIGHT * (len(bars) + bool(published))) as figure:
         plot_stage_times(figure, bars, published)
@@ -63,8 +63,24 @@ def published_means(categories: Set[str], published_folder: Path) -> dict[str, f
     return {str(name): float(value) for name, value in zip(of_shapes["method"], of_shapes["value"], strict=True)}
 
 
-def _read_times(paths: Sequence[Path]) -> pd.DataFrame:
-    """Read the rows of all files, in their order."""
+def read_times(paths: Sequence[Path]) -> pd.DataFrame:
+    """Read the times of several surface reconstructions.
+
+    Parameters
+    ----------
+    paths
+        CSV files with the columns :data:`morphoskel.reporting.time_table.TIME_COLUMNS`.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The rows of all files, in their order; the times of stages that failed are NaN.
+
+    Raises
+    ------
+    InputError
+        If there is no file, one cannot be read, or a shape has two times for a stage.
+    """
     import pandas as pd
 
     if not paths:
