@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import multiprocessing
 import random
 import resource
@@ -15,7 +16,6 @@ from typing import Any
 
 from fuzz.judge import Finding
 from fuzz.loop import Tally, fuzz, minimise
-
 from morphoskel.seeds import derive_seed
 
 MOST_CPU_SECONDS, MOST_WALL_SECONDS = 10, 120
@@ -90,6 +90,7 @@ def _run(name: str, folder: Path, count: int, seed: int) -> tuple[Tally, Finding
 def _work(name: str, folder: Path, count: int, seed: int, send: Connection) -> None:
     from fuzz.readers import READERS
 
+    logging.disable()
     reader = READERS[name]
     path = folder / reader.file
     path.parent.mkdir(parents=True, exist_ok=True)

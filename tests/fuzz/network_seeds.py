@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import Any
 
 import torch
-from fuzz.shape_seeds import written
 from torch import nn
+
+from fuzz.shape_seeds import written
 
 
 def classifier_files(folder: Path) -> list[bytes]:

@@ -12,7 +12,6 @@ from typing import Any
 
 from fuzz import shape_seeds as shapes
 from fuzz import text_seeds as texts
-
 from morphoskel.errors import MorphoSkelError
 
 

@@ -74,7 +74,8 @@ def ply_files(folder: Path) -> list[bytes]:
     )
     uneven = (
         b"ply\nformat binary_big_endian 1.0\nelement vertex 5\nproperty double x\nproperty double y\n"
-        b"property double z\nelement face 2\nproperty list ushort uint vertex_indices\nproperty uchar flag\nend_header\n"
+        b"property double z\nelement face 2\nproperty list ushort uint vertex_indices\nproperty uchar flag\n"
+        b"end_header\n"
         + POINTS[:5].astype(">f8").tobytes()
         + b"\0\4" + np.array([0, 1, 2, 3], ">u4").tobytes() + b"\1"
         + b"\0\3" + np.array([0, 1, 4], ">u4").tobytes() + b"\1"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import random
 import shutil
 import tarfile
 import zipfile
@@ -13,8 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from fuzz.shape_seeds import POINTS, REPOSITORY, extracts, written
-
-from morphoskel.errors import MorphoSkelError
 
 RESULT_COLUMNS = ("sampler", "ratio", "seed", "id", "category", "status", "correct")
 
@@ -53,6 +50,10 @@ def shapenetpart_lists(folder: Path) -> list[bytes]:
         path = folder / "03467517" / "points" / f"{name}.pts"
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text("0 0 0\n")
+    for split in ("train", "val"):
+        lists = folder / "train_test_split" / f"shuffled_{split}_file_list.json"
+        lists.parent.mkdir(parents=True, exist_ok=True)
+        lists.write_text("[]")
     listed = ["shape_data/03467517/shape", "shape_data/03467517/other"]
     return [json.dumps(listed).encode(), json.dumps(listed[:1], indent=1).encode()]
 
@@ -117,7 +118,8 @@ def result_tables(folder: Path) -> list[bytes]:
     return [
         b"dataset,method,group,metric,value,std,paper,n,n_failed,seeds,protocol\n"
         b'synthetic,MS3D,Chair,cd_recon,0.0184,,0.0296,32,0,"7,8",correct\n'
-        b"synthetic,DPC,Chair,cd_recon,failed,0.1,nan,0,2,7,correct\nsynthetic,L1,Chair,hd_recon,not run,,,0,0,,correct\n"
+        b"synthetic,DPC,Chair,cd_recon,failed,0.1,nan,0,2,7,correct\n"
+        b"synthetic,L1,Chair,hd_recon,not run,,,0,0,,correct\n"
     ]
 
 
@@ -133,7 +135,8 @@ def stage_times(folder: Path) -> list[bytes]:
 
 def scaling_files(folder: Path) -> list[bytes]:
     """Return measurements of every stage."""
-    rows = "".join(f"1000,{repeat},{stage},0.5,400,2\n" for repeat in (0, 1) for stage in ("occupancy", "udf", "dilation"))
+    stages = ("occupancy", "udf", "dilation")
+    rows = "".join(f"1000,{repeat},{stage},0.5,400,2\n" for repeat in (0, 1) for stage in stages)
     return [f"candidates,repeat,stage,seconds,inside,threads\n{rows}".encode()]
 
 

@@ -7,6 +7,8 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
+from morphoskel.errors import InputError
+
 FILE_NAME = "status.csv"
 
 
@@ -47,7 +49,7 @@ class Status:
 
 def write_status(folder: Path, rows: Iterable[Status]) -> None:
     """Write the rows, sorted by shape id, to ``status.csv`` in `folder`."""
-    with (folder / FILE_NAME).open("w", newline="") as stream:
+    with (folder / FILE_NAME).open("w", encoding="utf-8", newline="") as stream:
         writer = csv.DictWriter(stream, [field.name for field in fields(Status)], lineterminator="\n")
         writer.writeheader()
         for row in sorted(rows, key=lambda row: row.id):
@@ -56,8 +58,30 @@ def write_status(folder: Path, rows: Iterable[Status]) -> None:
 
 
 def read_status(folder: Path) -> list[Status]:
-    """Read the rows of ``status.csv`` in `folder`."""
-    with (folder / FILE_NAME).open(newline="") as stream:
-        rows = list(csv.DictReader(stream))
-    kinds = {"attempts": int, "seconds": float, "seconds_so_far": float}
-    return [Status(**{name: kinds.get(name, str)(value) for name, value in row.items()}) for row in rows]
+    """Read the rows of ``status.csv`` in `folder`.
+
+    Raises
+    ------
+    InputError
+        If the file is missing or damaged.
+    """
+    path = folder / FILE_NAME
+    names = [field.name for field in fields(Status)]
+    try:
+        with path.open(encoding="utf-8", newline="") as stream:
+            header, *rows = csv.reader(stream, strict=True)
+        if header != names:
+            raise ValueError(f"the columns are {','.join(header)}")
+        return [_parse(dict(zip(names, row, strict=True))) for row in rows]
+    except (OSError, ValueError, csv.Error) as error:
+        raise InputError(
+            f"{path}: expected the status of shapes with the columns {','.join(names)} ({error}); delete the folder to "
+            "have the stage run again"
+        ) from error
+
+
+def _parse(row: dict[str, str]) -> Status:
+    numbers = {"attempts": int(row["attempts"]), **{name: float(row[name]) for name in ("seconds", "seconds_so_far")}}
+    if row["status"] not in ("ok", "failed"):
+        raise ValueError(f"{row['id']}: the status is {row['status']!r}")
+    return Status(**{**row, **numbers})  # type: ignore[arg-type]

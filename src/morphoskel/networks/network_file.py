@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,7 +11,7 @@ import torch
 from torch import nn
 
 from morphoskel.atomic import atomic_file
-from morphoskel.errors import ConfigError, InputError
+from morphoskel.errors import InputError
 
 
 def write_network(network: nn.Module, path: Path, **values: Any) -> None:
@@ -41,5 +40,5 @@ def read_network(path: Path | str, what: str) -> Iterator[dict[str, Any]]:
         yield torch.load(path, map_location="cpu", weights_only=True)
     except FileNotFoundError as error:
         raise InputError(f"{path}: no trained {what} there; train one first") from error
-    except (RuntimeError, KeyError, TypeError, EOFError, pickle.UnpicklingError, ConfigError) as error:
+    except Exception as error:  # whatever PyTorch meets in damaged data, or a network in values of another version
         raise InputError(f"{path}: not a {what} of this version ({error}); train it again") from error

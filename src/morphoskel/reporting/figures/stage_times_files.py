@@ -6,6 +6,7 @@ from collections.abc import Sequence, Set
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from morphoskel.csv_frame import read_csv_frame
 from morphoskel.errors import InputError
 from morphoskel.evaluation.averages import AVERAGES, MEAN_OVER_SHAPES
 from morphoskel.reporting.figure_page import TEXT_WIDTH, figure_page
@@ -90,24 +91,14 @@ def read_times(paths: Sequence[Path]) -> pd.DataFrame:
     if len(twice):
         row = twice.iloc[0]
         raise InputError(
-            f"{row['id']}, {row['surface']}, {row['stage']}: a second time; expected one a shape and stage"
+            f"{', '.join(map(str, paths))}: {row['id']}, {row['surface']}, {row['stage']}: a second time; "
+            "expected one a shape and stage"
         )
     return rows
 
 
 def _read_file(path: Path) -> pd.DataFrame:
     """Read the times of one surface reconstruction; those of stages that failed are NaN."""
-    import pandas as pd
-
-    expected = f"expected times with the columns {', '.join(TIME_COLUMNS)}"
-    if not path.is_file():
-        raise InputError(f"{path}: no such file; {expected}")
     types = {name: float if name == "seconds" else str for name in TIME_COLUMNS}
-    try:
-        frame = pd.read_csv(path, dtype=types, keep_default_na=False, na_values={"seconds": [""]})
-    except ValueError as error:
-        raise InputError(f"{path}: a time is not a number: {error}") from error
-    missing = [column for column in TIME_COLUMNS if column not in frame.columns]
-    if missing:
-        raise InputError(f"{path}: the columns {', '.join(missing)} are missing; {expected}")
+    frame = read_csv_frame(path, TIME_COLUMNS, dtype=types, keep_default_na=False, na_values={"seconds": [""]})
     return frame[list(TIME_COLUMNS)]

@@ -1,0 +1,52 @@
+"""Read a CSV file as a data frame, with errors that name the file."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Collection
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from morphoskel.errors import InputError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def read_csv_frame(path: Path, columns: Collection[str], *, exactly: bool = False, **options: Any) -> pd.DataFrame:
+    """Read a CSV file with a header.
+
+    Parameters
+    ----------
+    path
+        The file.
+    columns
+        Those that it must have.
+    exactly
+        It must have no others, and these in this order.
+    options
+        Further arguments of :func:`pandas.read_csv`.
+
+    Raises
+    ------
+    InputError
+        If the file is missing or no such table, or a value is not of the type asked for.
+    """
+    import pandas as pd
+
+    expected = f"expected a table with the columns {', '.join(columns)}"
+    if not path.is_file():
+        raise InputError(f"{path}: no such file; {expected}")
+    try:
+        with warnings.catch_warnings():
+            # Of a row with more fields than the header, pandas drops the last ones and warns.
+            warnings.simplefilter("error", pd.errors.ParserWarning)
+            frame: pd.DataFrame = pd.read_csv(path, index_col=False, **options)
+    except (OSError, ValueError, OverflowError, pd.errors.ParserWarning) as error:
+        raise InputError(f"{path}: cannot be read as a table ({error}); {expected}") from error
+    missing = [name for name in columns if name not in frame.columns]
+    if missing:
+        raise InputError(f"{path}: the columns {', '.join(missing)} are missing; {expected}")
+    if exactly and tuple(frame.columns) != tuple(columns):
+        raise InputError(f"{path}: expected the columns {', '.join(columns)}, got {', '.join(map(str, frame.columns))}")
+    return frame
