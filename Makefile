@@ -9,7 +9,7 @@ ASSETS := src/morphoskel/reporting/assets
 THREE := 0.187.0
 ESBUILD := 0.28.2
 
-.PHONY: all test lint unit bench format lock viewer help clean
+.PHONY: all test lint unit bench fuzz format lock viewer help clean
 
 all: $(READY) ## every table and figure on the embedded data set (results/demo)
 	@$(BIN)/morphoskel run
@@ -28,6 +28,9 @@ unit: $(READY) ## tests alone; `make unit ARGS="-k dilation"` picks some
 
 bench: $(READY) ## speed and memory beside the released computation; `make bench ARGS=scaling` picks one
 	$(BIN)/python -m benchmarks $(ARGS)
+
+fuzz: $(READY) ## damaged files for every reader; `make fuzz ARGS="ply npz --count 100000 --seed 1"` picks some
+	PYTHONPATH=tests $(BIN)/python -m fuzz $(ARGS)
 
 format: $(READY) ## rewrite all code in the project's format
 	$(BIN)/ruff format .

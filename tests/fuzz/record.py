@@ -11,7 +11,6 @@ from fuzz.guarded import Result
 from fuzz.readers import READERS
 from fuzz.regressions import REGRESSIONS
 from fuzz.shape_seeds import REPOSITORY
-
 from morphoskel.atomic import atomic_file
 
 COUNTS = REPOSITORY / "tests" / "fuzz" / "recorded.json"
@@ -25,14 +24,15 @@ INTRODUCTION = """\
 Every reader of files, and the configuration, is fed damaged files: bits flipped, pieces cut out, repeated and taken
 from other files, numbers replaced by ones that are too large, negative or no numbers, lines exchanged, encodings and
 line ends changed; headers of arrays declare other types and shapes, members of archives are damaged behind checksums
-that stay right. The whole files at the start are written by the project and the libraries that it uses from small
-shapes; where extracts of the real data sets are at hand, the beginnings of some of them are added. Inputs that reach new
-lines of our code are kept and damaged further.
+that stay right. The whole files at the start are written by the project and the libraries that it uses, from small
+shapes; where extracts of the real data sets are at hand, the beginnings of some of them are added. Inputs that reach
+new lines of our code are kept and damaged further.
 
 A reader must return something, or raise an error of the project that names the file. Anything else is a finding:
-another error or a warning, a message without the file's name, more than 2 seconds of processor time or 256 MB of memory
-for a file of at most 64 kB, room asked for that is not there (a header that declares 10^12 points), a crash, a hang. The
-readers run in a process of their own under limits of the kernel, so that the last two are found and told apart, too.
+another error or a warning, a message without the file's name, more than 2 seconds of processor time or 256 MB of
+memory for a file of at most 64 kB, room asked for that is not there (a header that declares 10^12 points), a crash, a
+hang. The readers run in a process of their own under limits of the kernel, so that the last two are found and told
+apart, too.
 
 ```bash
 make fuzz                                          # 10,000 inputs for each of all readers
@@ -85,7 +85,9 @@ def render(recorded: dict[str, Any]) -> str:
             cells = [name, f"`{reader.function.replace(':', '.')}`", "", *["not run"] * 5, f"{mended[name]:,}"]
         rows.append(f"| {' | '.join(map(str, cells))} |")
     left = [f"- {name}: {finding}" for name, one in recorded.items() for finding in one["findings"]]
-    found = [f"- {name}: {', '.join(r.what for r in REGRESSIONS if r.reader == name)}" for name in READERS if mended[name]]
+    found = [
+        f"- {name}: {', '.join(r.what for r in REGRESSIONS if r.reader == name)}" for name in READERS if mended[name]
+    ]
     parts = [INTRODUCTION, "\n".join(rows), "## Mended", "\n".join(found)]
     if left:
         parts += ["## Not mended yet", "\n".join(left)]

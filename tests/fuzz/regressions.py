@@ -7,8 +7,6 @@ import struct
 import zipfile
 from dataclasses import dataclass
 
-from fuzz.shape_seeds import POINTS
-
 HUGE = b"7" * 5000
 """Python refuses to convert numbers of so many digits, with an error of its own."""
 
@@ -58,6 +56,9 @@ _ARRAY_FAULTS = {
     "room was made for the 10^12 rows that a header declares": TOO_LARGE,
     "a torn header gave an error of Python's tokenizer": TORN,
     "a shape beyond 64 bits gave a warning": declared("(9223372036854775808, 1)"),
+    "a truth value in a shape was a TypeError": npy(
+        b"{'descr': '<f8', 'fortran_order': False, 'shape': (True, True, True)}", bytes(8)
+    ),
     "a shape beyond 64 bits overflowed": declared("(1000000000000000000000000000000, 3)"),
 }
 
@@ -101,5 +102,6 @@ REGRESSIONS: tuple[Regression, ...] = (
                b'["03467517/shape","03467517/shape"]'),
     Regression("shapenetpart_labels", "a label beyond 64 bits", b"18446744073709551616"),
     Regression("shapenetpart_labels", "a label of no part: the message named another file", b"1\n1\n7\n2\n3\n3"),
-    Regression("shapenetpart_labels", "a label at the end of 64 bits overflowed", b"1\n1\n1\n9223372036854775807\n1\n1"),
+    Regression("shapenetpart_labels", "a label at the end of 64 bits overflowed",
+               b"1\n1\n1\n9223372036854775807\n1\n1"),
 )  # fmt: skip

@@ -35,7 +35,8 @@ def parse_npy_array(content: bytes) -> npt.NDArray[Any]:
         version = np.lib.format.read_magic(stream)
         # Version 3 differs from 2 in the encoding of the fields' names, which no array of ours has.
         read_header = np.lib.format.read_array_header_1_0 if version[0] == 1 else np.lib.format.read_array_header_2_0
-        shape, fortran_order, dtype = read_header(stream)
+        declared, fortran_order, dtype = read_header(stream)
+        shape = tuple(map(int, declared))  # NumPy lets True pass for 1 here, and stumbles over it later
     except Exception as error:  # whatever NumPy meets in a damaged header
         raise InputError(f"expected an NPY file ({_brief(error)}); fetch or save it again") from error
     if dtype.hasobject or dtype.itemsize == 0:

@@ -5,10 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from morphoskel.errors import ShapeError
+from morphoskel.placement import remoteness
 from morphoskel.shapes import Mesh
 
 LARGEST_SEED = 2**31 - 1
 """The native function takes a C ``int`` and reads anything below 1 as "unseeded"."""
+
+MOST_REMOTE = 4096.0
+"""Largest coordinate in extents at which single precision still has some 4000 steps across the shape."""
 
 
 def watertight(mesh: Mesh, *, seed: int, resolution: int = 20_000) -> Mesh:
@@ -34,7 +38,7 @@ def watertight(mesh: Mesh, *, seed: int, resolution: int = 20_000) -> Mesh:
     Raises
     ------
     ShapeError
-        If the mesh has no extent or the conversion yields nothing.
+        If the mesh has no extent, lies too far from the origin, or the conversion yields nothing.
     """
     import point_cloud_utils
 
@@ -42,6 +46,11 @@ def watertight(mesh: Mesh, *, seed: int, resolution: int = 20_000) -> Mesh:
     centre, half_extent = (lower + upper) / 2, float((upper - lower).max()) / 2
     if half_extent == 0:
         raise ShapeError(f"watertight: {mesh!r} has no extent, all its triangles lie in one point")
+    if remoteness(lower, upper) > MOST_REMOTE:
+        raise ShapeError(
+            f"watertight: {mesh!r} lies {remoteness(lower, upper):.3g} times its extent from the origin, where single "
+            "precision cannot resolve it; move it nearer"
+        )
     vertices, triangles = point_cloud_utils.make_mesh_watertight(
         (mesh.vertices - centre) / half_extent, mesh.triangles, resolution, seed % LARGEST_SEED + 1
     )

@@ -1,0 +1,52 @@
+"""Bring shapes that lie far from the origin near it, and their skeletons back.
+
+Closed surfaces and the candidates inside them are held in single precision, whose steps grow with the distance from
+the origin: a million times its extent away, a shape is a handful of steps wide.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TypeVar
+
+import numpy as np
+
+from morphoskel.shapes import FloatArray, Mesh, PointCloud, Skeleton
+
+FAR = 64.0
+"""Distance from the origin, in extents, from which a shape is moved. Nearer shapes, as those of every data set, stay
+where they are, so that they give the same bits here as in the workflow."""
+
+Shape = TypeVar("Shape", PointCloud, Mesh)
+
+
+def remoteness(lower: FloatArray, upper: FloatArray) -> float:
+    """Return the largest coordinate of a box in units of its longest side, ``inf`` if it has none."""
+    extent = float((upper - lower).max())
+    largest = float(np.maximum(np.abs(lower), np.abs(upper)).max())
+    return largest / extent if extent > 0 else np.inf
+
+
+def bring_near(shape: Shape) -> tuple[Shape, FloatArray]:
+    """Move a shape to the origin if it lies far from it.
+
+    Returns
+    -------
+    tuple
+        The shape, and what was subtracted from its points, ``(3,)``: zeros if it stayed.
+    """
+    if isinstance(shape, Mesh):
+        lower, upper = shape.bounds
+    else:
+        lower, upper = shape.points.min(axis=0), shape.points.max(axis=0)
+    if not FAR < remoteness(lower, upper) < np.inf:
+        return shape, np.zeros(3)
+    offset: FloatArray = (lower + upper) / 2
+    if isinstance(shape, Mesh):
+        return replace(shape, vertices=shape.vertices - offset), offset
+    return replace(shape, points=shape.points - offset), offset
+
+
+def bring_back(skeleton: Skeleton, offset: FloatArray) -> Skeleton:
+    """Move the skeleton of a shape to where the shape was."""
+    return replace(skeleton, points=skeleton.points + offset) if offset.any() else skeleton
