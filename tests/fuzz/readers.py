@@ -155,7 +155,9 @@ READERS: dict[str, Reader] = {
         lambda read, path: read(path.parent),
     ),
     "provenance": Reader("run_provenance:read_provenance", "provenance.json", texts.provenance_files),
-    "run_configuration": Reader("reporting.page.configuration:read_configuration", "config.yaml", texts.config_files),
+    "run_configuration": Reader(
+        "reporting.page.configuration:read_configuration", "config.yaml", texts.short_config_files
+    ),
     "network_classifier": _network("pointnet_classifier:load_classifier", "classifier_files"),
     "network_generator": _network("point_generator:load_generator", "generator_files"),
     "network_sampler": _network("skeleton_sampler:load_skeleton_sampler", "sampler_files"),

@@ -59,6 +59,7 @@ _ARRAY_FAULTS = {
     "a truth value in a shape was a TypeError": npy(
         b"{'descr': '<f8', 'fortran_order': False, 'shape': (True, True, True)}", bytes(8)
     ),
+    "an empty array with too many rows was a ValueError": declared("(0, 9223372036854775807)"),
     "a shape beyond 64 bits overflowed": declared("(1000000000000000000000000000000, 3)"),
 }
 

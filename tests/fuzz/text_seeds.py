@@ -165,6 +165,14 @@ def config_files(folder: Path) -> list[bytes]:
     ]
 
 
+def short_config_files(folder: Path) -> list[bytes]:
+    """Return parts of a configuration: Python's own YAML parser takes long for all of it."""
+    return [
+        b"run: smoke\nseed: 7\ndataset:\n  kind: folder\n  root: /tmp/x\n  categories: null\nparts: {}\n",
+        b"started: 2024-01-31\nsurface:\n  poisson: {depth: 8}\nskeleton:\n- &a [1, 2.5]\n- *a\nscale: 1.0e+3\n",
+    ]
+
+
 def override_files(folder: Path) -> list[bytes]:
     """Return overrides, one a line."""
     return [

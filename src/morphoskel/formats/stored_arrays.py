@@ -48,7 +48,10 @@ def parse_npy_array(content: bytes) -> npt.NDArray[Any]:
             "the file is truncated or damaged, fetch or save it again"
         )
     order: Literal["C", "F"] = "F" if fortran_order else "C"
-    array: npt.NDArray[Any] = np.ndarray(shape, dtype, content, stream.tell(), order=order)
+    try:
+        array: npt.NDArray[Any] = np.ndarray(shape, dtype, content, stream.tell(), order=order)
+    except ValueError as error:  # an array without elements, but with more rows than can be counted
+        raise InputError(f"the header declares an array of shape {shape} ({error}); fetch or save it again") from error
     return array.copy(order="K")
 
 
