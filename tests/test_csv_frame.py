@@ -24,7 +24,7 @@ def test_columns_are_read_by_name(tmp_path):
         ("id,value\na,1\nb,2,3\n", {}, "cannot be read as a table"),
         ("id,value\na,1,2\nb,2,3\n", {}, "cannot be read as a table"),
         ("id,value\n\xe9,1\n", {}, "cannot be read as a table"),
-        ("id,value\na,one\n", {"dtype": {"value": float}}, "cannot be read as a table"),
+        ("id,value\na,one\n", {"dtype": {"value": float}}, "a value is not a number"),
         ("id,number\na,1\n", {}, "the columns value are missing"),
         ("value,id\n1,a\n", {"exactly": True}, "expected the columns id, value, got value, id"),
     ],

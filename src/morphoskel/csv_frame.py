@@ -41,12 +41,22 @@ def read_csv_frame(path: Path, columns: Collection[str], *, exactly: bool = Fals
         with warnings.catch_warnings():
             # Of a row with more fields than the header, pandas drops the last ones and warns.
             warnings.simplefilter("error", pd.errors.ParserWarning)
+            # An infinite number in a column of whole ones would become an arbitrary one.
+            warnings.simplefilter("error", RuntimeWarning)
             frame: pd.DataFrame = pd.read_csv(path, index_col=False, **options)
-    except (OSError, ValueError, OverflowError, pd.errors.ParserWarning) as error:
+    except (
+        OSError,
+        UnicodeDecodeError,
+        pd.errors.ParserError,
+        pd.errors.EmptyDataError,
+        pd.errors.ParserWarning,
+    ) as error:
         raise InputError(f"{path}: cannot be read as a table ({error}); {expected}") from error
+    except (ValueError, OverflowError, RuntimeWarning) as error:
+        raise InputError(f"{path}: a value is not a number: {error}") from error
+    if exactly and tuple(frame.columns) != tuple(columns):
+        raise InputError(f"{path}: expected the columns {', '.join(columns)}, got {', '.join(map(str, frame.columns))}")
     missing = [name for name in columns if name not in frame.columns]
     if missing:
         raise InputError(f"{path}: the columns {', '.join(missing)} are missing; {expected}")
-    if exactly and tuple(frame.columns) != tuple(columns):
-        raise InputError(f"{path}: expected the columns {', '.join(columns)}, got {', '.join(map(str, frame.columns))}")
     return frame

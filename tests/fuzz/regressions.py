@@ -99,6 +99,8 @@ REGRESSIONS: tuple[Regression, ...] = (
     ),
     Regression("result_table", "an infinite number of shapes overflowed",
                b"dataset,method,group,metric,value,std,paper,n,n_failed,seeds,protocol\na,b,c,d,1,,,1e999,0,7,x"),
+    Regression("result_rows", "an infinite seed became an arbitrary one",
+               b"sampler,ratio,seed,id,category,status,correct\nfps,8,-inf,a,n,ok,1\n"),
     Regression("shapenetpart_list", "a shape listed twice: the message named no file",
                b'["03467517/shape","03467517/shape"]'),
     Regression("shapenetpart_labels", "a label beyond 64 bits", b"18446744073709551616"),

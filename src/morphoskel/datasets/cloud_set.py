@@ -27,6 +27,7 @@ _LAYOUT: Layout = {
     "scales": ("f", "S"),
 }
 _LAYOUT_OF_PARTS: Layout = {**_LAYOUT, "parts": ("i", "SN"), "part_classes": ("i", "P")}
+_WHAT = "a file of clouds of this version"
 
 
 @dataclass(frozen=True, eq=False)
@@ -224,11 +225,11 @@ def read_cloud_set(path: Path) -> CloudSet:
     InputError
         If it is absent or is not such a file.
     """
-    arrays = read_arrays(path, _LAYOUT)
+    arrays = read_arrays(path, _LAYOUT, _WHAT)
     if not arrays.keys() <= _LAYOUT_OF_PARTS.keys():
-        raise InputError(f"{path}: expected a file of clouds of this version, found {', '.join(arrays)}; make it again")
+        raise InputError(f"{path}: expected {_WHAT} (it holds {', '.join(arrays)}); make it again")
     if arrays.keys() != _LAYOUT.keys():
-        arrays = read_arrays(path, _LAYOUT_OF_PARTS)
+        arrays = read_arrays(path, _LAYOUT_OF_PARTS, _WHAT)
     labels, classes = arrays["labels"], len(arrays["class_names"])
     if len(labels) and not (labels.min() >= 0 and labels.max() < classes):
         raise InputError(f"{path}: labels: expected 0 to {classes - 1}, got {labels.min()} to {labels.max()}")

@@ -79,7 +79,7 @@ def parse_npz_arrays(content: bytes) -> Arrays:
     return arrays
 
 
-def read_arrays(path: Path, layout: Layout | None = None) -> Arrays:
+def read_arrays(path: Path, layout: Layout | None = None, what: str | None = None) -> Arrays:
     """Read the arrays of an NPZ file, and see that they are what is expected.
 
     Parameters
@@ -89,6 +89,8 @@ def read_arrays(path: Path, layout: Layout | None = None) -> Arrays:
     layout
         What must be in it; for example ``{"points": ("f", "SN3"), "labels": ("i", "S")}`` is a float array of S times N
         times 3 values and an integer array of as many values as the first has rows. Other arrays are left as they are.
+    what
+        Names what the file is expected to be, in errors, if it is one that we make.
 
     Raises
     ------
@@ -98,10 +100,10 @@ def read_arrays(path: Path, layout: Layout | None = None) -> Arrays:
     try:
         arrays = parse_npz_arrays(path.read_bytes())
         _check(arrays, layout or {})
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror}); check the path") from error
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from error
+    except (OSError, InputError) as error:
+        reason = f"cannot be read ({error.strerror}); check the path" if isinstance(error, OSError) else str(error)
+        message = reason if what is None else f"expected {what} ({reason}); make it again"
+        raise InputError(f"{path}: {message}") from error
     return arrays
 
 

@@ -56,5 +56,5 @@ def read_choice(path: Path) -> Choice:
     InputError
         If it is absent or is not such a file.
     """
-    arrays = read_arrays(path, _LAYOUT)
+    arrays = read_arrays(path, _LAYOUT, "a file of chosen points")
     return Choice(arrays["indices"], arrays["distinct"])

@@ -112,7 +112,7 @@ def read_prior_set(path: Path, clouds: CloudSet) -> PriorSet:
     InputError
         If it is absent, is not such a file, or belongs to other clouds.
     """
-    arrays = read_arrays(path, _LAYOUT)
+    arrays = read_arrays(path, _LAYOUT, "a file of local feature sizes")
     priors = PriorSet(**{name: arrays[name] for name in _LAYOUT})
     if priors.distances.shape != clouds.points.shape[:2] or not np.array_equal(priors.ids, clouds.ids):
         raise InputError(f"{path}: belongs to other clouds, {len(priors.ids)} instead of {len(clouds)}; make it again")
