@@ -75,7 +75,7 @@ def parse_npz_arrays(content: bytes) -> Arrays:
         try:
             arrays[name] = parse_npy_array(data)
         except InputError as error:
-            raise InputError(f"{name}: {error}") from error
+            raise InputError(f"expected an NPZ file with arrays of numbers ({name}: {error})") from error
     return arrays
 
 
