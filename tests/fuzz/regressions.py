@@ -67,6 +67,8 @@ REGRESSIONS: tuple[Regression, ...] = (
     Regression("ply", "a count of thousands of digits", b"ply\nelement vertex " + HUGE + b"\nend_header\n"),
     Regression("skeleton_ply", "a count of thousands of digits", b"ply\nelement vertex " + HUGE + b"\nend_header\n"),
     Regression("off", "a count of thousands of digits", b"OFF " + HUGE + b" 0 0"),
+    Regression("obj", "a vertex number beyond 64 bits", b"v 0 0 1\nf 30000000000000000000 1 2"),
+    Regression("benchmark", "another encoding", b"\xfe"),
     Regression("text", "a count of thousands of digits", HUGE),
     Regression("medial_axis_ma", "a count of thousands of digits", HUGE + b" 0 0"),
     Regression("medial_axis_ply", "a count of thousands of digits", b"ply\nelement vertex " + HUGE + b"\nend_header\n"),

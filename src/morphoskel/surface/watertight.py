@@ -19,8 +19,8 @@ def watertight(mesh: Mesh, *, seed: int, resolution: int = 20_000) -> Mesh:
     """Return a closed, consistently oriented surface around `mesh`.
 
     The native function moves the surface outward by 5e-4 in absolute terms, so the mesh is first brought to the
-    cube ``[-1, 1]^3``, the frame of the published clouds, and back afterwards: the result scales with the shape. It sees the
-    mesh from outside: what a component encloses, a cavity or another component, counts as solid.
+    cube ``[-1, 1]^3``, the frame of the published clouds, and back afterwards: the result scales with the shape. It
+    sees the mesh from outside: what a component encloses, a cavity or another component, counts as solid.
 
     Parameters
     ----------
