@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 from solids import ball, sphere_cloud
 
-from morphoskel.placement import FAR, bring_back, bring_near, remoteness
+from morphoskel.errors import ShapeError
+from morphoskel.placement import FAR, bring_back, bring_near, check_extent, remoteness
 from morphoskel.shapes import Mesh, PointCloud, Skeleton
 
 
@@ -26,6 +27,12 @@ def test_far_shapes_come_near_and_their_skeletons_back(distance):
         skeleton = bring_back(Skeleton(points, np.ones(len(points))), offset)
         expected = shape.vertices if isinstance(shape, Mesh) else shape.points
         np.testing.assert_allclose(skeleton.points, expected, atol=1e-12)
+
+
+@pytest.mark.parametrize("scale", [1e-200, 1e-20, 1e20, 1e300])
+def test_extents_beyond_single_precision_are_refused(scale):
+    with pytest.raises(ShapeError, match=r"PointCloud\(20 points.*has the extent .*rescale it"):
+        check_extent(PointCloud(sphere_cloud(20).points * scale))
 
 
 def test_what_is_moved_keeps_the_rest():

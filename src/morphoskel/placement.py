@@ -1,4 +1,4 @@
-"""Bring shapes that lie far from the origin near it, and their skeletons back.
+"""Bring shapes that lie far from the origin near it, and their skeletons back; refuse those of no usable size.
 
 Closed surfaces and the candidates inside them are held in single precision, whose steps grow with the distance from
 the origin: a million times its extent away, a shape is a handful of steps wide.
@@ -11,11 +11,15 @@ from typing import TypeVar
 
 import numpy as np
 
+from morphoskel.errors import ShapeError
 from morphoskel.shapes import FloatArray, Mesh, PointCloud, Skeleton
 
 FAR = 64.0
 """Distance from the origin, in extents, from which a shape is moved. Nearer shapes, as those of every data set, stay
 where they are, so that they give the same bits here as in the workflow."""
+
+SMALLEST, LARGEST = 1e-15, 1e15
+"""Extents whose squares single precision still holds."""
 
 Shape = TypeVar("Shape", PointCloud, Mesh)
 
@@ -27,6 +31,30 @@ def remoteness(lower: FloatArray, upper: FloatArray) -> float:
     return largest / extent if extent > 0 else np.inf
 
 
+def check_extent(shape: PointCloud | Mesh) -> tuple[FloatArray, FloatArray]:
+    """Return the corners of the box around a shape, ``(3,)`` each.
+
+    Raises
+    ------
+    ShapeError
+        If single precision cannot hold the squares of its extent.
+    """
+    if isinstance(shape, Mesh):
+        lower, upper = shape.bounds
+    else:
+        lower, upper = shape.points.min(axis=0), shape.points.max(axis=0)
+    with np.errstate(over="ignore"):
+        extent = float((upper - lower).max())
+    if extent == 0:
+        raise ShapeError(f"{shape!r} has no extent, all of it lies in one point")
+    if not SMALLEST <= extent <= LARGEST:
+        raise ShapeError(
+            f"{shape!r} has the extent {extent:.3g}, expected {SMALLEST:g} to {LARGEST:g}; rescale it, or remove what "
+            "lies far from the rest"
+        )
+    return lower, upper
+
+
 def bring_near(shape: Shape) -> tuple[Shape, FloatArray]:
     """Move a shape to the origin if it lies far from it.
 
@@ -34,11 +62,13 @@ def bring_near(shape: Shape) -> tuple[Shape, FloatArray]:
     -------
     tuple
         The shape, and what was subtracted from its points, ``(3,)``: zeros if it stayed.
+
+    Raises
+    ------
+    ShapeError
+        As from :func:`check_extent`.
     """
-    if isinstance(shape, Mesh):
-        lower, upper = shape.bounds
-    else:
-        lower, upper = shape.points.min(axis=0), shape.points.max(axis=0)
+    lower, upper = check_extent(shape)
     if not FAR < remoteness(lower, upper) < np.inf:
         return shape, np.zeros(3)
     offset: FloatArray = (lower + upper) / 2

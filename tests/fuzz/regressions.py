@@ -69,6 +69,8 @@ REGRESSIONS: tuple[Regression, ...] = (
     Regression("off", "a count of thousands of digits", b"OFF " + HUGE + b" 0 0"),
     Regression("obj", "a vertex number beyond 64 bits", b"v 0 0 1\nf 30000000000000000000 1 2"),
     Regression("benchmark", "another encoding", b"\xfe"),
+    Regression("pcd", "a field of a billion values a point",
+               b"FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 933725807\nWIDTH 8\nHEIGHT 0\nDATA binary"),
     Regression("text", "a count of thousands of digits", HUGE),
     Regression("medial_axis_ma", "a count of thousands of digits", HUGE + b" 0 0"),
     Regression("medial_axis_ply", "a count of thousands of digits", b"ply\nelement vertex " + HUGE + b"\nend_header\n"),

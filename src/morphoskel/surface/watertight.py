@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from morphoskel.errors import ShapeError
-from morphoskel.placement import remoteness
+from morphoskel.placement import check_extent, remoteness
 from morphoskel.shapes import Mesh
 
 LARGEST_SEED = 2**31 - 1
@@ -39,14 +39,12 @@ def watertight(mesh: Mesh, *, seed: int, resolution: int = 20_000) -> Mesh:
     Raises
     ------
     ShapeError
-        If the mesh has no extent, lies too far from the origin, or the conversion yields nothing.
+        If the mesh has no usable extent, lies too far from the origin, or the conversion yields nothing.
     """
     import point_cloud_utils
 
-    lower, upper = mesh.bounds
+    lower, upper = check_extent(mesh)
     centre, half_extent = (lower + upper) / 2, float((upper - lower).max()) / 2
-    if half_extent == 0:
-        raise ShapeError(f"watertight: {mesh!r} has no extent, all its triangles lie in one point")
     if remoteness(lower, upper) > MOST_REMOTE:
         raise ShapeError(
             f"watertight: {mesh!r} lies {remoteness(lower, upper):.3g} times its extent from the origin, where single "
