@@ -7,7 +7,6 @@ the origin: a million times its extent away, a shape is a handful of steps wide.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TypeVar
 
 import numpy as np
 
@@ -20,8 +19,6 @@ where they are, so that they give the same bits here as in the workflow."""
 
 SMALLEST, LARGEST = 1e-15, 1e15
 """Extents whose squares single precision still holds."""
-
-Shape = TypeVar("Shape", PointCloud, Mesh)
 
 
 def remoteness(lower: FloatArray, upper: FloatArray) -> float:
@@ -55,7 +52,7 @@ def check_extent(shape: PointCloud | Mesh) -> tuple[FloatArray, FloatArray]:
     return lower, upper
 
 
-def bring_near(shape: Shape) -> tuple[Shape, FloatArray]:
+def bring_near(shape: PointCloud | Mesh) -> tuple[PointCloud | Mesh, FloatArray]:
     """Move a shape to the origin if it lies far from it.
 
     Returns

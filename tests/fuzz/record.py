@@ -46,8 +46,8 @@ handled wrongly once (`tests/fuzz/regressions.py`). The tests of the formats wri
 ## Last recorded runs
 
 *read*: the damage did not matter, or gave another legal file. *steps*: from one line of our code to the next that some
-input took. *mended*: faults that fuzzing found, and that have a regression test. The inputs are decided by the seed
-and the number of files that the reader starts with.
+input took. *mended*: faults that fuzzing found, or that were found by looking for the like elsewhere, each with a
+regression test. The seed and the files that a reader starts with decide the inputs.
 """
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import io
 import json
 import shutil
@@ -80,18 +81,17 @@ def synthetic_descriptions(folder: Path) -> list[bytes]:
 def archives(folder: Path) -> list[bytes]:
     """Return a zip and two tar archives."""
     packed = []
-    for mode in ("w", "w:gz"):
-        stream = io.BytesIO()
-        with tarfile.open(fileobj=stream, mode=mode) as archive:
-            for name in ("data/a.txt", "data/sub/b.txt"):
-                member = tarfile.TarInfo(name)
-                member.size = 6
-                archive.addfile(member, io.BytesIO(b"0 0 0\n"))
-        packed.append(stream.getvalue())
+    stream = io.BytesIO()
+    with tarfile.open(fileobj=stream, mode="w") as archive:
+        for name in ("data/a.txt", "data/sub/b.txt"):
+            member = tarfile.TarInfo(name)
+            member.size = 6
+            archive.addfile(member, io.BytesIO(b"0 0 0\n"))
+    packed += [stream.getvalue(), gzip.compress(stream.getvalue(), mtime=0)]
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as zipped:
-        zipped.writestr("data/a.txt", "0 0 0\n" * 20)
-        zipped.writestr("data/sub/b.txt", "1 1 1\n")
+        zipped.writestr(zipfile.ZipInfo("data/a.txt"), "0 0 0\n" * 20, zipfile.ZIP_DEFLATED)
+        zipped.writestr(zipfile.ZipInfo("data/sub/b.txt"), "1 1 1\n")
     return [*packed, stream.getvalue()]
 
 
