@@ -1,10 +1,14 @@
 """A bounded number of damaged files for every reader, and the harness that makes and judges them."""
 
+import contextlib
+import io
+import json
 import logging
 import os
 import random
 import signal
 import time
+import zipfile
 
 import numpy as np
 import pytest
@@ -74,7 +78,7 @@ def warn():
 def test_the_judge_tells_right_from_wrong(tmp_path):
     def hidden(path):
         try:
-            np.empty((1 << 60, 3))
+            np.empty(1 << 50)
         except MemoryError as error:
             raise InputError(f"{path}: too large") from error
 
@@ -145,18 +149,14 @@ def test_a_finding_becomes_as_small_as_it_can_be(tmp_path):
 
 @pytest.mark.parametrize("name", ["npz", "network_generator", "archive"])
 def test_archives_are_damaged_inside_and_still_open(name, tmp_path):
-    import io
-    import zipfile
-
     _, _, seeds = prepared(name, tmp_path)
     seeds = [seed for seed in seeds if seed.startswith(b"PK")]
     generator = random.Random(0)
     mutants = [mutate(generator.choice(seeds), generator, seeds) for _ in range(60)]
     opened = 0
     for mutant in set(mutants) - set(seeds):
-        if zipfile.is_zipfile(io.BytesIO(mutant)):
-            with zipfile.ZipFile(io.BytesIO(mutant)) as archive:
-                opened += archive.testzip() is None
+        with contextlib.suppress(zipfile.BadZipFile), zipfile.ZipFile(io.BytesIO(mutant)) as archive:
+            opened += archive.testzip() is None
     assert opened > 5
 
 
@@ -173,6 +173,4 @@ def test_findings_are_told_apart_and_the_smallest_is_kept():
 
 
 def test_the_page_says_what_was_recorded():
-    import json
-
     assert PAGE.read_text(encoding="utf-8") == render(json.loads(COUNTS.read_text(encoding="utf-8")))
