@@ -219,6 +219,6 @@ def test_the_command_names_every_file_that_fails(tmp_path, capfd):
 def test_a_mesh_of_a_million_triangles():
     mesh = ball(subdivisions=8)
     assert len(mesh.triangles) > 1_000_000
-    skeleton = skeleton_of(mesh, watertight_settings={"resolution": 20_000})
+    skeleton = skeleton_of(mesh)
     assert skeleton.radii.max() == pytest.approx(1, abs=TOLERANCE)
     assert_inside(skeleton, mesh)

@@ -77,6 +77,13 @@ REGRESSIONS: tuple[Regression, ...] = (
     *(Regression("npy", what, content) for what, content in _ARRAY_FAULTS.items()),
     Regression("npy", "imaginary parts were dropped", npy(
         b"{'descr': '<c16', 'fortran_order': False, 'shape': (4, 3)}", bytes(4 * 3 * 16))),
+    Regression("npy", "a NaN that signals gave a warning", npy(
+        b"{'descr': '<f4', 'fortran_order': False, 'shape': (4, 3)}", b"\0\0\xa0\x7f" * 12)),
+    Regression("stl", "a NaN that signals gave a warning",
+               bytes(80) + b"\1\0\0\0" + bytes(12) + b"\0\0\xa0\x7f" * 9 + bytes(2)),
+    Regression("ply", "a NaN that signals gave a warning",
+               b"ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+               b"property float z\nend_header\n" + b"\0\0\xa0\x7f" * 12),
     *(
         Regression(reader, what, archive(**{name: content}))
         for reader, name in (

@@ -118,7 +118,8 @@ def as_numbers(values: npt.ArrayLike, what: str) -> FloatArray:
         raise InputError(f"{what}: expected numbers ({error})") from error
     if array.dtype.kind not in "biuf":
         raise InputError(f"{what}: expected numbers, got values of the type {array.dtype}")
-    with np.errstate(over="ignore"):
+    # A float32 NaN whose bits say that it signals is "invalid" here; like any other, it is refused later, by its row.
+    with np.errstate(over="ignore", invalid="ignore"):
         return array.astype(np.float64)
 
 
