@@ -10,7 +10,7 @@ PIP_AUDIT := 2.10.1
 THREE := 0.187.0
 ESBUILD := 0.28.2
 
-.PHONY: all test lint unit plan test-load test-faults test-cluster slurm bench format lock licences audit viewer help clean
+.PHONY: all test lint unit fuzz plan test-load test-faults test-cluster slurm bench format lock licences audit viewer help clean
 
 all: $(READY) ## every table and figure on the embedded data set (results/demo)
 	@$(BIN)/morphoskel run
@@ -45,6 +45,9 @@ slurm: $(READY) ## add what submits jobs to a SLURM cluster to the environment
 
 bench: $(READY) ## speed and memory beside the released computation; `make bench ARGS=scaling` picks one
 	$(BIN)/python -m benchmarks $(ARGS)
+
+fuzz: $(READY) ## damaged files for every reader; `make fuzz ARGS="ply npz --count 100000 --seed 1"` picks some
+	PYTHONPATH=tests $(BIN)/python -m fuzz $(ARGS)
 
 format: $(READY) ## rewrite all code in the project's format
 	$(BIN)/ruff format .

@@ -34,7 +34,7 @@ def test_without_files_there_are_columns_without_rows():
 
 
 def test_bad_files_are_named(tmp_path):
-    with pytest.raises(InputError, match=r"absent\.csv: no such file; expected results with the columns strategy"):
+    with pytest.raises(InputError, match=r"absent\.csv: no such file; expected a table with the columns strategy"):
         read_result_rows([tmp_path / "absent.csv"], COLUMNS)
     path = write(tmp_path / "a.csv", "fps,16,0,Mug,high,")
     with pytest.raises(InputError, match=r"a\.csv: a value is not a number"):

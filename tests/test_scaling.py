@@ -69,7 +69,7 @@ def test_an_open_surface_is_refused():
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (None, "no such file; expected times"),
+        (None, "no such file; expected a table"),
         ("a,b\n1,2\n", "expected the columns candidates, .*, got a, b"),
         (HEADER + "\n", "at least one measurement"),
         (HEADER + "\n10,0,udf,1.0,5,1\n10,0,nap,1.0,5,1\n", "line 3: unknown stage"),

@@ -116,9 +116,9 @@ def test_files_are_written_from_times(tmp_path):
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (None, "no such file; expected times"),
+        (None, "no such file; expected a table"),
         ("id,category,surface,stage\n", "the columns seconds are missing"),
-        ("id,category,surface,stage,seconds\na,Mug,poisson,udf,fast\n", "a time is not a number"),
+        ("id,category,surface,stage,seconds\na,Mug,poisson,udf,fast\n", "a value is not a number"),
         ("id,category,surface,stage,seconds\n" + 2 * "a,Mug,poisson,udf,1\n", "a, poisson, udf: a second time"),
     ],
 )

@@ -1,10 +1,15 @@
 import dataclasses
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from morphoskel.chain.status import Status, read_status, write_status
-from morphoskel.checksums import LIST, intact
-from morphoskel.errors import StorageError
+from morphoskel.checksums import LIST, intact, write_checksums
+from morphoskel.errors import InputError, StorageError
+
+TEXT = st.text(st.characters(exclude_categories=["Cs"]), max_size=20)
+THOUSANDTHS = st.integers(0, 10**9).map(lambda number: number / 1000)
 
 
 def test_rows_come_back_sorted_with_awkward_reasons(tmp_path):
@@ -39,4 +44,30 @@ def test_a_damaged_status_is_refused(tmp_path):
         read_status(tmp_path)
     (tmp_path / LIST).unlink()
     with pytest.raises(StorageError, match=f"has no {LIST}"):
+        read_status(tmp_path)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.builds(Status, st.just("a"), TEXT, st.sampled_from(["ok", "failed"]), TEXT, TEXT, st.integers(1, 2),
+                 THOUSANDTHS, THOUSANDTHS, TEXT, TEXT))  # fmt: skip
+def test_any_text_comes_back(tmp_path_factory, row):
+    folder = tmp_path_factory.mktemp("round_trip")
+    write_status(folder, [row])
+    assert read_status(folder) == [row]
+
+
+@pytest.mark.parametrize(("old", "new"), [("attempts", "tries"), (",1,", ",one,"), ("ok", "fine"), ("a,Chair", "a")])
+def test_damage_names_the_file(old, new, tmp_path):
+    write_status(tmp_path, [Status("a", "Chair", "ok", "udf", "", 1, 0.5, 0.5, "")])
+    path = tmp_path / "status.csv"
+    path.write_text(path.read_text().replace(old, new))
+    write_checksums(tmp_path)
+    with pytest.raises(InputError, match=r"status\.csv: expected the status of shapes"):
+        read_status(tmp_path)
+
+
+def test_an_absent_file_is_named(tmp_path):
+    write_status(tmp_path, [])
+    (tmp_path / "status.csv").unlink()
+    with pytest.raises(StorageError, match=r"status\.csv"):
         read_status(tmp_path)

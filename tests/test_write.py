@@ -6,6 +6,7 @@ from hypothesis.extra.numpy import arrays
 
 from morphoskel.errors import InputError
 from morphoskel.formats.read import read_shape
+from morphoskel.formats.skeleton_file import read_skeleton
 from morphoskel.formats.write import (
     read_skeleton_ply,
     write_cloud_ply,
@@ -79,6 +80,26 @@ def test_skeletons_come_back_exactly(tmp_path_factory, table):
     back = read_skeleton_ply(path)
     for name in ("points", "radii", "residues"):
         np.testing.assert_array_equal(getattr(back, name), getattr(skeleton, name))
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    arrays(np.float64, (6, 5), elements=st.floats(0, 1e300)),
+    arrays(np.int64, st.tuples(st.integers(0, 5), st.just(2)), elements=st.integers(0, 5)),
+    arrays(np.int64, st.tuples(st.integers(0, 5), st.just(3)), elements=st.integers(0, 5)),
+    st.booleans(),
+)
+def test_parts_of_skeletons_come_back_exactly(tmp_path_factory, table, edges, triangles, ranked):
+    folder = tmp_path_factory.mktemp("round_trip")
+    skeleton = Skeleton(table[:, :3], table[:, 3], table[:, 4] if ranked else None, edges, triangles)
+    for name, write in (("a.ply", write_skeleton_ply), ("a.npz", write_skeleton_npz)):
+        write(folder / name, skeleton)
+        back = read_skeleton(folder / name)
+        for field in ("points", "radii", "residues", "edges", "triangles"):
+            before, after = getattr(skeleton, field), getattr(back, field)
+            assert (before is None) == (after is None)
+            if before is not None:
+                np.testing.assert_array_equal(after, before)
 
 
 def test_clouds_open_in_other_programs(tmp_path, cloud):

@@ -65,7 +65,7 @@ def read_provenance(path: Path) -> dict[str, Any]:
     """
     try:
         values = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"{path}: expected the provenance of a run as JSON ({error}); make it again") from error
     if not isinstance(values, dict) or tuple(values) != KEYS:
         raise InputError(f"{path}: expected an object with the keys {', '.join(KEYS)}; make it again")

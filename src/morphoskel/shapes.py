@@ -190,10 +190,8 @@ def _finite_rows(array: npt.ArrayLike, name: str, expected_rows: int | None = No
 
 def _count_distinct(points: FloatArray) -> int:
     """Return the number of distinct rows, counted only as far as needed to reach the minimum."""
-    distinct = points[:0]
-    for row in points:
-        if not (distinct == row).all(axis=1).any():
-            distinct = np.vstack([distinct, row])
-            if len(distinct) == MINIMUM_DISTINCT_POINTS:
-                break
-    return len(distinct)
+    distinct, others = 0, points
+    while len(others) and distinct < MINIMUM_DISTINCT_POINTS:
+        distinct += 1
+        others = others[(others != others[0]).any(axis=1)]
+    return distinct

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from morphoskel.cores import available_cores
 from morphoskel.errors import ConfigError, InputError
 from morphoskel.methods import CLOUD_METHODS, check_method
+from morphoskel.placement import bring_back, bring_near
 from morphoskel.seeds import derive_generator, derive_seed
 from morphoskel.shapes import FloatArray, Mesh, PointCloud, Skeleton
 
@@ -182,10 +183,12 @@ def skeletonize_shape(
     settings = _complete(method, settings or {})
     check_settings(method, settings)
     check_network(method, network)
+    shape, offset = bring_near(shape)
     if method in CLOUD_METHODS:
         cloud = _as_cloud(shape, seed, name)
         generator = derive_generator(seed, name, method)
-        return SkeletonizedShape(skeleton_of_cloud(method, cloud, generator, settings=settings, network=network), None)
+        skeleton = skeleton_of_cloud(method, cloud, generator, settings=settings, network=network)
+        return SkeletonizedShape(bring_back(skeleton, offset), None)
     _check_volume_settings(candidates, k, points)
     mesh = shape
     if isinstance(mesh, PointCloud):
@@ -201,7 +204,9 @@ def skeletonize_shape(
         settings=settings,
         threads=threads or available_cores(),
     )
-    return SkeletonizedShape(skeleton, closed)
+    if offset.any():
+        closed = Mesh(closed.vertices + offset, closed.triangles)
+    return SkeletonizedShape(bring_back(skeleton, offset), closed)
 
 
 def _complete(method: str, settings: Mapping[str, Any]) -> Mapping[str, Any]:

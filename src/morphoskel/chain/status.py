@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
 from morphoskel.checksums import LIST, intact, write_checksums
-from morphoskel.errors import StorageError
+from morphoskel.errors import InputError, StorageError
 
 FILE_NAME = "status.csv"
 
@@ -61,7 +61,7 @@ def write_status(folder: Path, rows: Iterable[Status]) -> None:
 
     Called last: a file that is written later is damaged in the eyes of a reader.
     """
-    with (folder / FILE_NAME).open("w", newline="") as stream:
+    with (folder / FILE_NAME).open("w", encoding="utf-8", newline="") as stream:
         writer = csv.DictWriter(stream, [field.name for field in fields(Status)], lineterminator="\n")
         writer.writeheader()
         for row in sorted(rows, key=lambda row: row.id):
@@ -77,10 +77,28 @@ def read_status(folder: Path) -> list[Status]:
     ------
     StorageError
         If the file is damaged, or the folder has lost its checksums.
+    InputError
+        If the file holds no such rows.
     """
     if not (folder / LIST).exists():
         raise StorageError(f"{folder}: has no {LIST}, which every stage writes; remove the folder and run again")
-    with intact(folder / FILE_NAME).open(newline="") as stream:
-        rows = list(csv.DictReader(stream))
-    kinds = {"attempts": int, "seconds": float, "seconds_so_far": float}
-    return [Status(**{name: kinds.get(name, str)(value) for name, value in row.items()}) for row in rows]
+    path = intact(folder / FILE_NAME)
+    names = [field.name for field in fields(Status)]
+    try:
+        with path.open(encoding="utf-8", newline="") as stream:
+            header, *rows = csv.reader(stream, strict=True)
+        if header != names:
+            raise ValueError(f"the columns are {','.join(header)}")
+        return [_parse(dict(zip(names, row, strict=True))) for row in rows]
+    except (OSError, ValueError, csv.Error) as error:
+        raise InputError(
+            f"{path}: expected the status of shapes with the columns {','.join(names)} ({error}); delete the folder to "
+            "have the stage run again"
+        ) from error
+
+
+def _parse(row: dict[str, str]) -> Status:
+    numbers = {"attempts": int(row["attempts"]), **{name: float(row[name]) for name in ("seconds", "seconds_so_far")}}
+    if row["status"] not in ("ok", "failed"):
+        raise ValueError(f"{row['id']}: the status is {row['status']!r}")
+    return Status(**{**row, **numbers})  # type: ignore[arg-type]

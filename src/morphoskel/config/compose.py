@@ -49,7 +49,6 @@ def compose(overrides: Sequence[str] = (), folder: Path | None = None) -> Config
     from hydra.types import RunMode
     from omegaconf import OmegaConf
     from omegaconf.errors import OmegaConfBaseException
-    from pydantic import ValidationError
 
     folder = (folder or config_folder()).resolve()
     if isinstance(overrides, str):
@@ -66,6 +65,19 @@ def compose(overrides: Sequence[str] = (), folder: Path | None = None) -> Config
         values: Any = OmegaConf.to_container(tree, resolve=True, throw_on_missing=True)
     except (HydraException, OmegaConfBaseException) as error:
         raise ConfigError(_explain_composition(error)) from error
+    return validate(values)
+
+
+def validate(values: Any) -> Config:
+    """Make a configuration of plain values.
+
+    Raises
+    ------
+    ConfigError
+        Naming every key that is wrong, the legal values and the nearest match.
+    """
+    from pydantic import ValidationError
+
     try:
         return Config.model_validate(values)
     except ValidationError as error:

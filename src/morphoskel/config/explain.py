@@ -38,11 +38,11 @@ def check_overrides(overrides: Sequence[str], folder: Path) -> None:
     for text in overrides:
         try:
             override = OverridesParser.create().parse_override(str(text))
-        except HydraException as error:
+            value = override.value()
+        except (HydraException, ValueError, RecursionError) as error:  # ValueError of a number of thousands of digits
             raise ConfigError(f"{text!r} is not an override; expected key=value, for example skeleton.k=30") from error
         key = override.key_or_group
         if key in groups:
-            value = override.value()
             if value is None and not override.is_delete():
                 raise ConfigError(f"{key}: null is no choice; to choose none, write ~{key}")
             chosen = value if isinstance(value, list) else [value]

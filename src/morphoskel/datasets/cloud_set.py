@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import zipfile
-import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -16,9 +14,21 @@ from morphoskel.atomic import atomic_file
 from morphoskel.datasets.configured import open_configured
 from morphoskel.datasets.manifest import read_manifest
 from morphoskel.errors import InputError, ShapeError
+from morphoskel.formats.stored_arrays import Layout, read_arrays
 from morphoskel.progress import track
 from morphoskel.seeds import derive_generator
 from morphoskel.shapes import FloatArray, IntArray, PointCloud
+
+_LAYOUT: Layout = {
+    "ids": ("U", "S"),
+    "labels": ("i", "S"),
+    "class_names": ("U", "C"),
+    "points": ("f", "SN3"),
+    "centres": ("f", "S3"),
+    "scales": ("f", "S"),
+}
+_LAYOUT_OF_PARTS: Layout = {**_LAYOUT, "parts": ("i", "SN"), "part_classes": ("i", "P")}
+_WHAT = "a file of clouds of this version"
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,8 +224,12 @@ def read_cloud_set(path: Path) -> CloudSet:
     InputError
         If it is absent or is not such a file.
     """
-    try:
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
-            return CloudSet(**{name: stored[name] for name in stored.files})
-    except (OSError, EOFError, KeyError, TypeError, ValueError, zipfile.BadZipFile, zlib.error) as error:
-        raise InputError(f"{path}: expected a file of clouds of this version ({error}); make it again") from error
+    arrays = read_arrays(path, _LAYOUT, _WHAT)
+    if not arrays.keys() <= _LAYOUT_OF_PARTS.keys():
+        raise InputError(f"{path}: expected {_WHAT} (it holds {', '.join(arrays)}); make it again")
+    if arrays.keys() != _LAYOUT.keys():
+        arrays = read_arrays(path, _LAYOUT_OF_PARTS, _WHAT)
+    labels, classes = arrays["labels"], len(arrays["class_names"])
+    if len(labels) and not (labels.min() >= 0 and labels.max() < classes):
+        raise InputError(f"{path}: labels: expected 0 to {classes - 1}, got {labels.min()} to {labels.max()}")
+    return CloudSet(**arrays)

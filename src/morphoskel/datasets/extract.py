@@ -59,10 +59,14 @@ def extract(archive: Path, target: Path, *, limits: ArchiveLimits | None = None)
                 _extract_zip(archive, destination)
             else:
                 _extract_tar(archive, destination)
-        except (*_DAMAGE, RuntimeError) as error:  # zipfile raises RuntimeError if a password is needed
+        except DatasetError:
+            raise
+        except _DAMAGE as error:
             raise DatasetError(f"{archive}: cannot be unpacked ({error}); fetch it again") from error
         except OSError as error:
             raise DatasetError(f"{archive}: cannot be unpacked into {target} ({error}); check the disk") from error
+        except Exception as error:  # of damaged data all sorts of errors, of a missing password RuntimeError
+            raise DatasetError(f"{archive}: cannot be unpacked ({error}); fetch it again") from error
         _unwrap(partial)
 
 

@@ -173,7 +173,7 @@ def read_manifest(path: Path, *, split: str | None = None, shard: int | None = N
     try:
         with intact(path).open(encoding="utf-8", newline="") as stream:
             rows = list(csv.reader(stream))
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise DatasetError(f"{path}: cannot be read as a manifest ({error}); build the manifest first") from error
     if not rows or tuple(rows[0]) != COLUMNS:
         raise DatasetError(f"{path}:1: expected the columns {','.join(COLUMNS)}; delete the file to have it rebuilt")
@@ -234,7 +234,8 @@ def _is_text(path: Path) -> bool:
 
 def _parse_row(path: Path, line: int, row: list[str]) -> ShapeRecord:
     """Return one row of a manifest as a record."""
-    if len(row) != len(COLUMNS) or not row[3].isdecimal() or not re.fullmatch(r"[0-9a-f]{64}", row[5]):
+    legal = len(row) == len(COLUMNS) and re.fullmatch(r"[0-9]{1,18}", row[3]) and re.fullmatch(r"[0-9a-f]{64}", row[5])
+    if not legal:
         raise DatasetError(
             f"{path}:{line}: expected {','.join(COLUMNS)} with a whole number as shard and 64 hexadecimal digits as "
             f"sha256, got {','.join(row)!r}; delete the file to have it rebuilt"

@@ -149,17 +149,18 @@ class ShapeNetPartDataset:
         if offset not in CATEGORIES:
             raise InputError(f"{path}: {offset!r} is no folder of ShapeNetPart; expected {', '.join(CATEGORIES)}")
         parts = PARTS[CATEGORIES[offset]]
-        labels = _read_raw_labels(path, parts, len(cloud)) if raw else cloud.labels
+        source = path.parent.parent / "points_label" / f"{path.stem}.seg" if raw else path
+        labels = _read_raw_labels(source, len(cloud)) if raw else cloud.labels
         if labels is None:
             raise InputError(f"{path}: expected 7 columns x y z nx ny nz label; fetch the file again")
-        if labels.min() < parts.start or labels.max() >= parts.stop:
-            shift = parts.start - 1 if raw else 0
+        shift = parts.start - 1 if raw else 0
+        if labels.min() < parts.start - shift or labels.max() >= parts.stop - shift:
             raise InputError(
-                f"{path}: the labels of {CATEGORIES[offset]} are {parts.start - shift} to {parts.stop - 1 - shift}, "
-                f"but the shape has {labels.min() - shift} to {labels.max() - shift}; fetch the file again"
+                f"{source}: the labels of {CATEGORIES[offset]} are {parts.start - shift} to {parts.stop - 1 - shift}, "
+                f"but the shape has {labels.min()} to {labels.max()}; fetch the file again"
             )
         normals = None if cloud.normals is None else cloud.normals @ self.turn
-        return PointCloud(cloud.points @ self.turn, normals, labels)
+        return PointCloud(cloud.points @ self.turn, normals, labels + shift)
 
     @cached_property
     def _entries(self) -> dict[str, list[Entry]]:
@@ -197,7 +198,7 @@ class ShapeNetPartDataset:
         try:
             listed = json.loads(path.read_text(encoding="utf-8"))
             shapes = [tuple(str(item).split("/")[-2:]) for item in listed]
-        except (OSError, ValueError, TypeError) as error:
+        except (OSError, ValueError, TypeError, RecursionError) as error:
             raise DatasetError(f"{path}: expected a JSON list of shapes ({error}); fetch it again") from error
         for shape in shapes:
             if len(shape) != 2 or shape[0] not in CATEGORIES:
@@ -238,20 +239,19 @@ def _check_once(root: Path, listed: dict[str, list[tuple[str, str]]]) -> None:
     if repeated:
         where = [split for split, shapes in listed.items() for shape in shapes if shape == repeated[0]]
         raise DatasetError(
-            f"{root / 'train_test_split'}: {len(repeated)} shapes are listed more than once, first "
+            f"{root / SPLIT_LISTS[where[0]]}: {len(repeated)} shapes are listed more than once, first "
             f"{'/'.join(repeated[0])} in {', '.join(where)}; fetch the lists again"
         )
 
 
-def _read_raw_labels(path: Path, parts: range, points: int) -> IntArray:
-    """Return the labels beside a raw cloud in the numbering of :data:`PARTS`."""
-    labels_path = path.parent.parent / "points_label" / f"{path.stem}.seg"
+def _read_raw_labels(labels_path: Path, points: int) -> IntArray:
+    """Return the labels beside a raw cloud, as they are."""
     try:
         labels = np.array(labels_path.read_text(encoding="ascii").split(), dtype=np.int64)
     except OSError as error:
         raise InputError(f"{labels_path}: the labels of the shape cannot be read ({error.strerror})") from error
-    except ValueError as error:
+    except (ValueError, OverflowError) as error:
         raise InputError(f"{labels_path}: expected one whole number a line ({error}); fetch the file again") from error
     if len(labels) != points:
         raise InputError(f"{labels_path}: holds {len(labels)} labels for {points} points; fetch both files again")
-    return labels - 1 + parts.start
+    return labels

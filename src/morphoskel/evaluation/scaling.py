@@ -8,7 +8,8 @@ from itertools import pairwise, product
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from morphoskel.checksums import checked_file, intact
+from morphoskel.checksums import checked_file
+from morphoskel.csv_frame import read_csv_frame
 from morphoskel.errors import InputError
 from morphoskel.morphology import dilation
 from morphoskel.progress import track
@@ -97,13 +98,8 @@ def read_scaling(path: Path) -> pd.DataFrame:
     InputError
         If the file is absent, has other columns or no row, or holds illegal numbers or stages.
     """
-    import pandas as pd
-
-    if not path.is_file():
-        raise InputError(f"{path}: no such file; expected times with the columns {', '.join(SCALING_COLUMNS)}")
-    frame = pd.read_csv(intact(path))
-    if tuple(frame.columns) != SCALING_COLUMNS:
-        raise InputError(f"{path}: expected the columns {', '.join(SCALING_COLUMNS)}, got {', '.join(frame.columns)}")
+    types = {**dict.fromkeys(SCALING_COLUMNS, "int64"), "stage": "str", "seconds": "float64"}
+    frame = read_csv_frame(path, SCALING_COLUMNS, exactly=True, dtype=types)
     problems = {
         f"unknown stage; expected one of {', '.join(SCALED_STAGES)}": ~frame["stage"].isin(SCALED_STAGES),
         "expected at least one candidate": ~(frame["candidates"] >= 1),

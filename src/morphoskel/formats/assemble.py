@@ -98,13 +98,29 @@ def as_rows(values: npt.ArrayLike, what: str) -> FloatArray:
     InputError
         If they are no numbers or have another shape; `what` names the values in the message.
     """
-    try:
-        rows = np.asarray(values, dtype=np.float64)
-    except (ValueError, TypeError) as error:
-        raise InputError(f"{what}: expected numbers ({error})") from error
+    rows = as_numbers(values, what)
     if rows.ndim != 2 or rows.shape[1] != 3:
         raise InputError(f"{what}: expected shape (N, 3), got {rows.shape}")
     return rows
+
+
+def as_numbers(values: npt.ArrayLike, what: str) -> FloatArray:
+    """Return `values` as float64; what is too large for that becomes infinite.
+
+    Raises
+    ------
+    InputError
+        If they are no real numbers, such as text, complex numbers or dates; `what` names the values in the message.
+    """
+    try:
+        array = np.asarray(values)
+    except ValueError as error:  # rows of different length
+        raise InputError(f"{what}: expected numbers ({error})") from error
+    if array.dtype.kind not in "biuf":
+        raise InputError(f"{what}: expected numbers, got values of the type {array.dtype}")
+    # A float32 NaN whose bits say that it signals is "invalid" here; like any other, it is refused later, by its row.
+    with np.errstate(over="ignore", invalid="ignore"):
+        return array.astype(np.float64)
 
 
 def scale_to_unit_length(normals: FloatArray) -> FloatArray:
@@ -129,12 +145,9 @@ def as_whole_numbers(values: npt.ArrayLike, what: str) -> IntArray:
         If a value is not a whole number; `what` names the values in the message.
     """
     array = np.asarray(values)
-    if array.dtype.kind in "iu":
+    if array.dtype.kind == "i" or (array.dtype.kind == "u" and array.dtype.itemsize < 8):
         return array.astype(np.int64)
-    try:
-        floats = array.astype(np.float64)
-    except (ValueError, TypeError) as error:
-        raise InputError(f"{what}: expected whole numbers ({error})") from error
+    floats = as_numbers(array, what)
     bad = np.flatnonzero(~np.isfinite(floats) | (floats != np.trunc(floats)) | (np.abs(floats) > 2**53))
     if len(bad):
         raise InputError(f"{what}: expected whole numbers, got {floats.reshape(-1)[bad[0]]} at position {bad[0]}")

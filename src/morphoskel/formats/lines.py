@@ -10,6 +10,9 @@ import numpy as np
 from morphoskel.errors import InputError
 from morphoskel.shapes import FloatArray
 
+_MOST_DIGITS = 18
+"""Of a count: what is larger does not fit into 64 bits, and from 4300 on Python itself refuses."""
+
 
 class Line(NamedTuple):
     """A line of a file: its number, counted from 1, and its text."""
@@ -96,8 +99,8 @@ def parse_count(line: Line, field: str, what: str) -> int:
     InputError
         If it is not a whole number of at least 0.
     """
-    if not (field.isascii() and field.isdecimal()):
-        raise InputError(f"line {line.number}: expected the number of {what}, got {field!r}")
+    if not (field.isascii() and field.isdecimal() and len(field) <= _MOST_DIGITS):
+        raise InputError(f"line {line.number}: expected the number of {what}, got {shorten(field)}")
     return int(field)
 
 

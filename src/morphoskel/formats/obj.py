@@ -12,6 +12,9 @@ from morphoskel.shapes import Mesh, PointCloud
 _IGNORED = {"vt", "vp", "g", "o", "s", "l", "p", "mtllib", "usemtl", "mg", "lod"}
 """Keywords of lines that say nothing about the surface."""
 
+_LARGEST_INDEX = 2**62
+"""Fits into 64 bits, also when counted back from."""
+
 
 def parse_obj(content: bytes) -> PointCloud | Mesh:
     """Parse an OBJ file: a mesh if it has faces, else a cloud.
@@ -67,6 +70,8 @@ def _corner(line: Line, field: str, known: int) -> int:
         index = int(field.split("/")[0])
     except ValueError as error:
         raise InputError(f"line {line.number}: expected vertex numbers, got {shorten(line.text)}") from error
+    if abs(index) > _LARGEST_INDEX:
+        raise InputError(f"line {line.number}: vertex number {shorten(field)} does not exist; the file is damaged")
     # Negative numbers count back from the vertex read last.
     zero_based = index - 1 if index > 0 else known + index
     if index == 0 or zero_based < 0:

@@ -16,6 +16,9 @@ from morphoskel.formats.lines import parse_table, significant_lines
 from morphoskel.shapes import Mesh, PointCloud
 
 _KINDS = {"F": "f", "I": "i", "U": "u"}
+_MOST_VALUES = 1 << 16
+"""Of a field and point; the longest descriptors in use have some thousands."""
+
 _NORMALS = ("normal_x", "normal_y", "normal_z")
 
 
@@ -79,6 +82,8 @@ def _parse_header(content: bytes, data: str) -> _Header:
         size = entries.get("POINTS") or [str(int(entries["WIDTH"][0]) * int(entries["HEIGHT"][0]))]
         if min(int(size[0]), *counts) < 0 or 0 in counts:
             raise ValueError("a count is not positive")
+        if max(counts) > _MOST_VALUES:
+            raise ValueError(f"a field has more than {_MOST_VALUES} values a point")
         return _Header(fields, int(size[0]), data)
     except (ValueError, KeyError, TypeError, IndexError) as error:
         raise InputError(

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from morphoskel.errors import InputError
-from morphoskel.formats.assemble import Polygons, as_whole_numbers, assemble_shape
+from morphoskel.formats.assemble import Polygons, as_numbers, as_whole_numbers, assemble_shape
 from morphoskel.formats.lines import Line, parse_count, shorten, significant_lines
 from morphoskel.formats.ply_body import Column, Element, Property, RaggedList, parse_ascii, parse_binary
 from morphoskel.shapes import Mesh, PointCloud
@@ -103,7 +103,7 @@ def stack_properties(element: Mapping[str, Column], names: tuple[str, ...]) -> n
     if any(column is None or isinstance(column, RaggedList) for column in columns):
         have = ", ".join(element) or "none"
         raise InputError(f"expected the vertex properties {', '.join(names)}; the file has {have}")
-    return np.stack([np.asarray(column, dtype=np.float64) for column in columns], axis=1)
+    return np.stack([as_numbers(np.asarray(column), ", ".join(names)) for column in columns], axis=1)
 
 
 def len_of_column(column: Column) -> int:

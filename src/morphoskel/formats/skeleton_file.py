@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import io
 import re
-import zipfile
-import zlib
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-
 from morphoskel.errors import InputError
+from morphoskel.formats.assemble import as_numbers, as_rows, as_whole_numbers
 from morphoskel.formats.medial_axis_file import read_medial_axis
 from morphoskel.formats.read import SUPPORTED_SUFFIXES, read_shape
+from morphoskel.formats.stored_arrays import read_arrays
 from morphoskel.formats.write import read_skeleton_ply
 from morphoskel.shapes import Mesh, PointCloud, Skeleton
 
@@ -23,9 +19,7 @@ READABLE_SUFFIXES = (*SUPPORTED_SUFFIXES, ".ma")
 
 WHAT_HOLDS_A_SKELETON = "a PLY file with the property radius, an NPZ file with points and radii, or an MA file"
 
-_PARTS = ("residues", "edges", "triangles")
-_DAMAGE = (ValueError, TypeError, EOFError, OSError, RuntimeError, MemoryError, zipfile.BadZipFile, zlib.error)
-"""What NumPy and zipfile raise on files that are damaged or hold no numbers."""
+_PARTS = {"residues": as_numbers, "edges": as_whole_numbers, "triangles": as_whole_numbers}
 
 
 def read_skeleton(path: Path | str) -> Skeleton:
@@ -86,25 +80,6 @@ def read_skeleton_or_shape(path: Path | str) -> Skeleton | PointCloud | Mesh:
     return skeleton
 
 
-def read_arrays(path: Path) -> dict[str, npt.NDArray[Any]]:
-    """Return the arrays of an NPZ file by their names; pickled objects, which could run code, are refused.
-
-    Raises
-    ------
-    InputError
-        If the file is missing or damaged.
-    """
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror}); check the path") from error
-    try:
-        with np.lib.npyio.NpzFile(io.BytesIO(content), allow_pickle=False) as stored:
-            return dict(stored)
-    except _DAMAGE as error:
-        raise InputError(f"{path}: expected an NPZ file with arrays of numbers ({error}); fetch it again") from error
-
-
 def _read_ply(path: Path) -> Skeleton | None:
     """Return the skeleton in a PLY file, or None if its header declares no radius."""
     try:
@@ -126,6 +101,7 @@ def _read_npz(path: Path) -> Skeleton | None:
     if not {"points", "radii"} <= arrays.keys():
         return None
     try:
-        return Skeleton(arrays["points"], arrays["radii"], **{name: arrays[name] for name in _PARTS if name in arrays})
-    except (ValueError, TypeError) as error:
+        parts: dict[str, Any] = {name: to(arrays[name], name) for name, to in _PARTS.items() if name in arrays}
+        return Skeleton(as_rows(arrays["points"], "points"), as_numbers(arrays["radii"], "radii"), **parts)
+    except InputError as error:
         raise InputError(f"{path}: {error}") from error

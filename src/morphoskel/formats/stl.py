@@ -7,7 +7,7 @@ import struct
 import numpy as np
 
 from morphoskel.errors import InputError
-from morphoskel.formats.assemble import Polygons, assemble_shape
+from morphoskel.formats.assemble import Polygons, as_numbers, assemble_shape
 from morphoskel.formats.lines import parse_table, significant_lines
 from morphoskel.shapes import FloatArray, Mesh, PointCloud
 
@@ -54,7 +54,7 @@ def _parse_binary(content: bytes) -> FloatArray:
             f"the header declares {declared} facets, {need} bytes, but the file has {len(content)}; "
             f"it is {state} or no STL file, fetch it again"
         )
-    return np.frombuffer(content, _FACET, declared, _HEADER_SIZE)["corners"].astype(np.float64)
+    return as_numbers(np.frombuffer(content, _FACET, declared, _HEADER_SIZE)["corners"], "corners")
 
 
 def _parse_ascii(content: bytes) -> FloatArray:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from morphoskel.errors import InputError
 from morphoskel.formats.assemble import assemble_shape
-from morphoskel.formats.lines import parse_table, significant_lines
+from morphoskel.formats.lines import parse_count, parse_table, significant_lines
 from morphoskel.shapes import FloatArray, Mesh, PointCloud
 
 _COLUMNS = "3 (x y z), 4 (x y z label), 6 (x y z nx ny nz) or 7 (x y z nx ny nz label)"
@@ -29,7 +29,7 @@ def parse_text(content: bytes) -> PointCloud | Mesh:
     """
     lines = significant_lines(content, comments=("#", "//"))
     if lines and lines[0].text.isdecimal():
-        declared, lines = int(lines[0].text), lines[1:]
+        declared, lines = parse_count(lines[0], lines[0].text, "points"), lines[1:]
         if len(lines) != declared:
             raise InputError(
                 f"the first line declares {declared} points, but {len(lines)} follow; the file is truncated or damaged"

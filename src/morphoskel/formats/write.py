@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from morphoskel.atomic import atomic_file
 from morphoskel.errors import InputError
+from morphoskel.formats.assemble import Polygons, as_whole_numbers, triangulate_fans
 from morphoskel.formats.ply import parse_ply_elements, stack_properties
 from morphoskel.formats.ply_body import RaggedList
 from morphoskel.shapes import FloatArray, IntArray, Mesh, PointCloud, Skeleton
@@ -97,10 +98,10 @@ def read_skeleton_ply(path: Path | str) -> Skeleton:
         residues = stack_properties(vertex, ("residue",))[:, 0] if "residue" in vertex else None
         parts = {}
         if "edge" in elements:
-            parts["edges"] = stack_properties(elements["edge"], ("vertex1", "vertex2")).astype(np.int64)
+            parts["edges"] = as_whole_numbers(stack_properties(elements["edge"], ("vertex1", "vertex2")), "edges")
         faces = elements.get("face", {}).get("vertex_indices")
         if isinstance(faces, RaggedList):
-            parts["triangles"] = np.asarray(faces.values, dtype=np.int64).reshape(-1, 3)
+            parts["triangles"] = triangulate_fans(Polygons(faces.counts, as_whole_numbers(faces.values, "faces")))
         return Skeleton(values[:, :3], values[:, 3], residues, **parts)
     except InputError as error:
         raise InputError(f"{path}: {error}") from error

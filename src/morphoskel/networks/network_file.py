@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +12,7 @@ from torch import nn
 
 from morphoskel.atomic import atomic_file
 from morphoskel.checksums import intact_archive
-from morphoskel.errors import ConfigError, InputError, StorageError
+from morphoskel.errors import InputError, StorageError
 
 
 def write_network(network: nn.Module, path: Path, **values: Any) -> None:
@@ -56,5 +55,7 @@ def read_network(path: Path | str, what: str) -> Iterator[dict[str, Any]]:
         yield torch.load(intact_archive(Path(path)), map_location="cpu", weights_only=True)
     except FileNotFoundError as error:
         raise InputError(f"{path}: no trained {what} there; train one first") from error
-    except (RuntimeError, KeyError, TypeError, EOFError, pickle.UnpicklingError, ConfigError) as error:
+    except StorageError:
+        raise
+    except Exception as error:  # whatever PyTorch meets in damaged data, or a network in values of another version
         raise InputError(f"{path}: not a {what} of this version ({error}); train it again") from error

@@ -11,7 +11,7 @@ import numpy as np
 
 from morphoskel.atomic import atomic_file
 from morphoskel.errors import InputError
-from morphoskel.formats.skeleton_file import read_arrays
+from morphoskel.formats.stored_arrays import read_arrays
 from morphoskel.reporting.illustrate import illustrate
 from morphoskel.reporting.illustrated_shapes import EXACT_SOLIDS, shape_from
 from morphoskel.reporting.illustration import Illustration

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from morphoskel.csv_frame import read_csv_frame
 from morphoskel.errors import InputError
 from morphoskel.evaluation.averages import AVERAGES, MEAN_OVER_CATEGORIES, MEAN_OVER_SHAPES
 from morphoskel.reporting.metrics import find_metric
@@ -49,22 +50,21 @@ def read_published(folder: Path, table: str) -> pd.DataFrame:
     InputError
         If there is no such table, or the file does not have this form.
     """
-    import pandas as pd
-
     path = folder / f"{table}.csv"
     if not path.is_file():
         known = ", ".join(sorted(file.stem for file in folder.glob("*.csv"))) or "none"
         raise InputError(f"{path}: no such file; the published tables in {folder} are: {known}")
-    frame = pd.read_csv(path, dtype=str, keep_default_na=False)
-    if tuple(frame.columns) != COLUMNS:
-        raise InputError(f"{path}: expected the columns {', '.join(COLUMNS)}, got {', '.join(frame.columns)}")
+    frame = read_csv_frame(path, COLUMNS, exactly=True, dtype=str, keep_default_na=False)
     keys: set[tuple[str, str, str]] = set()
     for line, row in enumerate(frame.to_dict("records"), start=2):
         if row["table"] != table:
             raise InputError(f"{path}, line {line}: expected the table {table!r}, got {row['table']!r}")
         if row["metric"] == "" or row["method"] == "" or row["group"] == "":
             raise InputError(f"{path}, line {line}: method, group and metric must not be empty")
-        find_metric(row["metric"])
+        try:
+            find_metric(row["metric"])
+        except InputError as error:
+            raise InputError(f"{path}, line {line}: {error}") from error
         key = (row["method"], row["group"], row["metric"])
         if key in keys:
             raise InputError(f"{path}, line {line}: a second value for {', '.join(key)}; remove one")

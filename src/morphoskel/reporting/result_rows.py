@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from morphoskel.checksums import intact
-from morphoskel.errors import InputError
+from morphoskel.csv_frame import read_csv_frame
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -40,15 +39,6 @@ def read_result_rows(paths: Sequence[Path], columns: Sequence[str]) -> pd.DataFr
     frames = [pd.DataFrame({name: pd.Series(dtype=kind) for name, kind in types.items()})]
     empty = {name: ["", "nan"] for name, kind in types.items() if kind is float}
     for path in paths:
-        if not path.is_file():
-            raise InputError(f"{path}: no such file; expected results with the columns {', '.join(columns)}")
-        present = pd.read_csv(intact(path), nrows=0).columns
-        missing = [name for name in columns if name not in present]
-        if missing:
-            raise InputError(f"{path}: the columns {', '.join(missing)} are missing; expected {', '.join(columns)}")
-        try:
-            frame = pd.read_csv(path, usecols=list(columns), dtype=types, keep_default_na=False, na_values=empty)
-        except ValueError as error:
-            raise InputError(f"{path}: a value is not a number: {error}") from error
+        frame = read_csv_frame(path, columns, dtype=types, keep_default_na=False, na_values=empty)
         frames.append(frame[list(columns)])
     return pd.concat(frames[1:] or frames, ignore_index=True)

@@ -11,7 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from morphoskel.errors import InputError
-from morphoskel.formats.skeleton_file import read_arrays, read_skeleton_or_shape
+from morphoskel.formats.assemble import as_numbers, as_whole_numbers
+from morphoskel.formats.skeleton_file import read_skeleton_or_shape
+from morphoskel.formats.stored_arrays import read_arrays
 from morphoskel.progress import track
 from morphoskel.reporting.scene import Layer, Scalar, Scene
 from morphoskel.reporting.scene_layers import cloud_layer, feature_size_scalar, mesh_layer, skeleton_layers
@@ -116,14 +118,14 @@ def _read(path: Path) -> _Content:
 def _chosen(path: Path, arrays: Arrays) -> _Chosen:
     """Return what a file of `morphoskel sample` holds."""
     try:
-        indices = np.asarray(arrays["indices"], dtype=np.int64)
-        points = PointCloud(arrays["points"]).points
-        cloud = PointCloud(arrays["cloud"]) if "cloud" in arrays else None
-        sizes = np.asarray(arrays["local_feature_size"], dtype=np.float64) if "local_feature_size" in arrays else None
+        indices = as_whole_numbers(arrays["indices"], "indices")
+        numbers = {name: as_numbers(array, name) for name, array in arrays.items() if name != "indices"}
+        points, sizes = PointCloud(numbers["points"]).points, numbers.get("local_feature_size")
+        cloud = PointCloud(numbers["cloud"]) if "cloud" in numbers else None
         skeleton = None
-        if {"skeleton_points", "skeleton_radii"} <= arrays.keys():
-            skeleton = Skeleton(arrays["skeleton_points"], arrays["skeleton_radii"])
-    except (ValueError, TypeError) as error:
+        if {"skeleton_points", "skeleton_radii"} <= numbers.keys():
+            skeleton = Skeleton(numbers["skeleton_points"], numbers["skeleton_radii"])
+    except InputError as error:
         raise InputError(f"{path}: {error}") from error
     count = len(cloud) if cloud is not None else None if sizes is None else len(sizes)
     fits = indices.shape == (len(points),) and (indices >= 0).all() and (count is None or (indices < count).all())

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from morphoskel.atomic import atomic_file
+from morphoskel.csv_frame import read_csv_frame
 from morphoskel.errors import InputError
 from morphoskel.evaluation.averages import AVERAGES
 from morphoskel.evaluation.protocol import EvaluationProtocol, check_protocol
@@ -174,20 +175,14 @@ def read_table(path: Path) -> pd.DataFrame:
     InputError
         If the file is absent or is not such a table.
     """
-    import pandas as pd
-
-    if not path.is_file():
-        raise InputError(f"{path}: no such file; expected the CSV file of a result table")
-    frame = pd.read_csv(path, dtype=str, keep_default_na=False)
-    if tuple(frame.columns) != COLUMNS:
-        raise InputError(f"{path}: expected the columns {', '.join(COLUMNS)}, got {', '.join(frame.columns)}")
+    frame = read_csv_frame(path, COLUMNS, exactly=True, dtype=str, keep_default_na=False)
     try:
         numbers = {
             name: [math.nan if text in (NOT_RUN, FAILED, "") else float(text) for text in frame[name]]
             for name in ("value", "std", "paper")
         }
         return frame.assign(**numbers).astype({"n": "int64", "n_failed": "int64"})
-    except ValueError as error:
+    except (ValueError, OverflowError) as error:
         raise InputError(f"{path}: a value is not a number: {error}") from error
 
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import zipfile
-import zlib
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
 from morphoskel.atomic import atomic_file
-from morphoskel.errors import InputError
+from morphoskel.formats.stored_arrays import Layout, read_arrays
+
+_LAYOUT: Layout = {"indices": ("i", "DSM"), "distinct": ("i", "DS")}
 
 FIXED = "fixed"
 """Of a sampler that always chooses the same points."""
@@ -56,8 +56,5 @@ def read_choice(path: Path) -> Choice:
     InputError
         If it is absent or is not such a file.
     """
-    try:
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
-            return Choice(**{field.name: stored[field.name] for field in fields(Choice)})
-    except (OSError, EOFError, KeyError, TypeError, ValueError, zipfile.BadZipFile, zlib.error) as error:
-        raise InputError(f"{path}: expected a file of chosen points ({error}); make it again") from error
+    arrays = read_arrays(path, _LAYOUT, "a file of chosen points")
+    return Choice(arrays["indices"], arrays["distinct"])

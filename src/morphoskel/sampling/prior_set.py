@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import logging
-import zipfile
-import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -18,8 +16,11 @@ from morphoskel.checksums import intact
 from morphoskel.datasets.cloud_set import CloudSet
 from morphoskel.errors import InputError, ShapeError
 from morphoskel.formats import read_skeleton_ply
+from morphoskel.formats.stored_arrays import Layout, read_arrays
 from morphoskel.progress import track
 from morphoskel.sampling.prior import local_feature_size
+
+_LAYOUT: Layout = {"ids": ("U", "S"), "distances": ("f", "SN"), "reasons": ("U", "S")}
 
 logger = logging.getLogger(__name__)
 
@@ -114,11 +115,8 @@ def read_prior_set(path: Path, clouds: CloudSet) -> PriorSet:
     InputError
         If it is absent, is not such a file, or belongs to other clouds.
     """
-    try:
-        with path.open("rb") as stream, np.load(stream, allow_pickle=False) as stored:
-            priors = PriorSet(**{field.name: stored[field.name] for field in fields(PriorSet)})
-    except (OSError, EOFError, KeyError, TypeError, ValueError, zipfile.BadZipFile, zlib.error) as error:
-        raise InputError(f"{path}: expected a file of local feature sizes ({error}); make it again") from error
+    arrays = read_arrays(path, _LAYOUT, "a file of local feature sizes")
+    priors = PriorSet(**{name: arrays[name] for name in _LAYOUT})
     if priors.distances.shape != clouds.points.shape[:2] or not np.array_equal(priors.ids, clouds.ids):
         raise InputError(f"{path}: belongs to other clouds, {len(priors.ids)} instead of {len(clouds)}; make it again")
     return priors

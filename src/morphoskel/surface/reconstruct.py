@@ -9,6 +9,7 @@ import numpy as np
 
 from morphoskel.errors import ConfigError, ShapeError
 from morphoskel.native_output import native_output_logged
+from morphoskel.placement import check_extent
 from morphoskel.shapes import Mesh, PointCloud
 from morphoskel.surface.alpha_shape import reconstruct_alpha_shape
 from morphoskel.surface.ball_pivoting import reconstruct_ball_pivoting
@@ -57,8 +58,9 @@ def reconstruct(cloud: PointCloud, method: str = "poisson", *, seed: int = 0, **
     ConfigError
         If there is no such method.
     ShapeError
-        If the method finds no surface.
+        If the cloud is too large or too small for single precision, or the method finds no surface.
     """
+    check_extent(cloud)
     if method == REPAIRED:
         return reconstruct_repaired(cloud, **settings).mesh
     if method not in METHODS:

@@ -5,10 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from morphoskel.errors import ShapeError
+from morphoskel.placement import check_extent, remoteness
 from morphoskel.shapes import Mesh
 
 LARGEST_SEED = 2**31 - 1
 """The native function takes a C ``int`` and reads anything below 1 as "unseeded"."""
+
+MOST_REMOTE = 4096.0
+"""Largest coordinate in extents at which single precision still has some 4000 steps across the shape."""
 
 
 def watertight(mesh: Mesh, *, seed: int, resolution: int = 20_000) -> Mesh:
@@ -16,9 +20,9 @@ def watertight(mesh: Mesh, *, seed: int, resolution: int = 20_000) -> Mesh:
 
     The native function returns the outer boundary of the octree's cells through which the surface passes, smoothed, so
     its result lies outside: by about 0.02 times half the longest side around a sphere or a cube with 20,000 leaves, and
-    by half of that with four times as many. It also works with lengths of its own, such as 5e-4, in absolute terms, so
-    the mesh is first brought to the cube ``[-1, 1]^3``, the frame of the published clouds, and back afterwards: the
-    result scales with the shape.
+    by half of that with four times as many. What a component encloses, a cavity or another component, counts as solid.
+    It also works with lengths of its own, such as 5e-4, in absolute terms, so the mesh is first brought to the cube
+    ``[-1, 1]^3``, the frame of the published clouds, and back afterwards: the result scales with the shape.
 
     Parameters
     ----------
@@ -37,14 +41,17 @@ def watertight(mesh: Mesh, *, seed: int, resolution: int = 20_000) -> Mesh:
     Raises
     ------
     ShapeError
-        If the mesh has no extent or the conversion yields nothing.
+        If the mesh has no usable extent, lies too far from the origin, or the conversion yields nothing.
     """
     import point_cloud_utils
 
-    lower, upper = mesh.bounds
+    lower, upper = check_extent(mesh)
     centre, half_extent = (lower + upper) / 2, float((upper - lower).max()) / 2
-    if half_extent == 0:
-        raise ShapeError(f"watertight: {mesh!r} has no extent, all its triangles lie in one point")
+    if remoteness(lower, upper) > MOST_REMOTE:
+        raise ShapeError(
+            f"watertight: {mesh!r} lies {remoteness(lower, upper):.3g} times its extent from the origin, where single "
+            "precision cannot resolve it; move it nearer"
+        )
     vertices, triangles = point_cloud_utils.make_mesh_watertight(
         (mesh.vertices - centre) / half_extent, mesh.triangles, resolution, seed % LARGEST_SEED + 1
     )

@@ -105,7 +105,7 @@ class SyntheticDataset:
         try:
             found = json.loads(path.read_text(encoding="utf-8"))
             made_with = {key: found[key] for key in self._description()}
-        except (OSError, ValueError, KeyError, TypeError) as error:
+        except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
             raise DatasetError(f"{path}: is damaged ({error}); delete {self.root} and generate it again") from error
         if made_with != self._description():
             raise DatasetError(

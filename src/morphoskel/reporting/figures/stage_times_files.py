@@ -6,7 +6,7 @@ from collections.abc import Sequence, Set
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from morphoskel.checksums import intact
+from morphoskel.csv_frame import read_csv_frame
 from morphoskel.errors import InputError
 from morphoskel.evaluation.averages import AVERAGES, MEAN_OVER_SHAPES
 from morphoskel.reporting.figure_page import TEXT_WIDTH, figure_page
@@ -41,7 +41,7 @@ def draw_stage_times_from_files(paths: Sequence[Path], times: Sequence[Path], pu
     InputError
         If there is no file, one cannot be read, or a shape has two times for a stage.
     """
-    rows = _read_times(times)
+    rows = read_times(times)
     bars, published = stage_times(rows), published_means(set(rows["category"]), published_folder)
     with figure_page(paths, TEXT_WIDTH, MARGINS + ROW_HEIGHT * (len(bars) + bool(published))) as figure:
         plot_stage_times(figure, bars, published)
@@ -64,8 +64,24 @@ def published_means(categories: Set[str], published_folder: Path) -> dict[str, f
     return {str(name): float(value) for name, value in zip(of_shapes["method"], of_shapes["value"], strict=True)}
 
 
-def _read_times(paths: Sequence[Path]) -> pd.DataFrame:
-    """Read the rows of all files, in their order."""
+def read_times(paths: Sequence[Path]) -> pd.DataFrame:
+    """Read the times of several surface reconstructions.
+
+    Parameters
+    ----------
+    paths
+        CSV files with the columns :data:`morphoskel.reporting.time_table.TIME_COLUMNS`.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The rows of all files, in their order; the times of stages that failed are NaN.
+
+    Raises
+    ------
+    InputError
+        If there is no file, one cannot be read, or a shape has two times for a stage.
+    """
     import pandas as pd
 
     if not paths:
@@ -75,24 +91,14 @@ def _read_times(paths: Sequence[Path]) -> pd.DataFrame:
     if len(twice):
         row = twice.iloc[0]
         raise InputError(
-            f"{row['id']}, {row['surface']}, {row['stage']}: a second time; expected one a shape and stage"
+            f"{', '.join(map(str, paths))}: {row['id']}, {row['surface']}, {row['stage']}: a second time; "
+            "expected one a shape and stage"
         )
     return rows
 
 
 def _read_file(path: Path) -> pd.DataFrame:
     """Read the times of one surface reconstruction; those of stages that failed are NaN."""
-    import pandas as pd
-
-    expected = f"expected times with the columns {', '.join(TIME_COLUMNS)}"
-    if not path.is_file():
-        raise InputError(f"{path}: no such file; {expected}")
     types = {name: float if name == "seconds" else str for name in TIME_COLUMNS}
-    try:
-        frame = pd.read_csv(intact(path), dtype=types, keep_default_na=False, na_values={"seconds": [""]})
-    except ValueError as error:
-        raise InputError(f"{path}: a time is not a number: {error}") from error
-    missing = [column for column in TIME_COLUMNS if column not in frame.columns]
-    if missing:
-        raise InputError(f"{path}: the columns {', '.join(missing)} are missing; {expected}")
+    frame = read_csv_frame(path, TIME_COLUMNS, dtype=types, keep_default_na=False, na_values={"seconds": [""]})
     return frame[list(TIME_COLUMNS)]

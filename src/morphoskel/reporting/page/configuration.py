@@ -51,7 +51,7 @@ def read_configuration(path: Path) -> Configuration:
 
     try:
         values = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+    except (OSError, ValueError, RecursionError, yaml.YAMLError) as error:  # ValueError of a date such as 2020-13-01
         raise InputError(f"{path}: expected the resolved configuration as YAML ({error}); write it again") from error
     if not isinstance(values, dict):
         raise InputError(f"{path}: expected a mapping of configuration keys, got {values!r}; write it again")

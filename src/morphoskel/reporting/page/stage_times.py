@@ -77,14 +77,13 @@ def _summed(rule: str, jobs: list[dict[str, float]]) -> StageTime:
 
 def _read_benchmark(path: Path) -> dict[str, float]:
     """Return seconds, processor seconds and memory of a job; NaN for what was not measured."""
-    with path.open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(stream, delimiter="\t"))
     try:
-        [row] = rows
+        with path.open(encoding="utf-8", newline="") as stream:
+            [row] = csv.DictReader(stream, delimiter="\t")
         values = {name: _number(row[name]) for name in ("s", "cpu_time", "max_rss")}
         if not values["s"] >= 0:
             raise ValueError(f"{row['s']} seconds")
-    except (KeyError, TypeError, ValueError) as error:
+    except (OSError, KeyError, TypeError, ValueError, csv.Error) as error:
         raise InputError(
             f"{path}: expected a benchmark of Snakemake, one row with the columns s, cpu_time and max_rss ({error}); "
             "remove the file, or run the job again"

@@ -1,0 +1,48 @@
+"""Which lines of our code an input reaches, so that the loop can go on from inputs that reach new ones.
+
+Atheris, the coverage-guided fuzzer for Python, has no release for Python 3.11 any more, and ends with the first
+finding. Tracing our own package is enough here: formats are parsed in it, and what it calls is not ours to explore.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import CodeType, FrameType
+from typing import Any
+
+import morphoskel
+
+_PACKAGE = str(next(iter(morphoskel.__path__)))
+
+Steps = set[tuple[CodeType, int, int]]
+"""From one line to the next one of the same function."""
+
+
+@contextmanager
+def traced() -> Iterator[Steps]:
+    """Collect the steps that the code of the package takes inside the block."""
+    steps: Steps = set()
+
+    def enter(frame: FrameType, event: str, argument: Any) -> Callable[..., Any] | None:
+        code = frame.f_code
+        if not code.co_filename.startswith(_PACKAGE):
+            return None
+        last = 0
+
+        def follow(frame: FrameType, event: str, argument: Any) -> Callable[..., Any]:
+            nonlocal last
+            if event == "line":
+                steps.add((code, last, frame.f_lineno))
+                last = frame.f_lineno
+            return follow
+
+        return follow
+
+    before = sys.gettrace()
+    sys.settrace(enter)
+    try:
+        yield steps
+    finally:
+        sys.settrace(before)
