@@ -11,7 +11,7 @@ import urllib.request
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, NoReturn
+from typing import IO, TYPE_CHECKING
 
 from morphoskel.datasets.address import check_address
 from morphoskel.datasets.extract import extract
