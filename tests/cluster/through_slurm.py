@@ -3,6 +3,7 @@
 It takes several minutes and needs SLURM, so it is collected only where it is named: ``make test-cluster``.
 """
 
+import csv
 import hashlib
 import os
 import signal
@@ -23,8 +24,8 @@ TARGETS = os.environ.get("CLUSTER_TARGETS", "").split()
 COMPARED = ("tables", "skeletons", "medial_axis", "priors", "samples", "labelled_points", "evaluation")
 """Folders of results that do not depend on where they were computed."""
 
-MEASURED = ("processing_time.*", "status.csv")
-"""Files in them that hold times."""
+TIMES = ("processing_time.csv", "status.csv")
+"""Tables in them that hold little but times."""
 
 IMPATIENT = ("--slurm-init-seconds-before-status-checks=3", "--seconds-between-status-checks=2", "--latency-wait=5")
 """Short waits, for a cluster without other users and with a file system of its own."""
@@ -86,11 +87,27 @@ def first_job(rule: str, cluster: dict[str, str], state: str = "RUNNING") -> str
 
 
 def contents(repository: Path) -> dict[str, str]:
-    """Return the digests of the results that have to be the same wherever they were computed, by their paths."""
+    """Return the results that have to be the same wherever they were computed, by their paths.
+
+    Tables are compared in their CSV form, of which the Markdown and LaTeX are renderings, and without measured seconds.
+    """
     run = repository / "results" / "smoke"
     files = [path for folder in COMPARED for path in (run / folder).rglob("*") if path.is_file()]
-    kept = [path for path in files if not any(path.match(pattern) for pattern in MEASURED)]
-    return {str(path.relative_to(run)): hashlib.sha256(path.read_bytes()).hexdigest() for path in kept}
+    kept = [path for path in files if path.suffix not in (".md", ".tex", "") and path.name not in TIMES]
+    return {
+        str(path.relative_to(run)): without_seconds(path)
+        if path.suffix == ".csv"
+        else hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in kept
+    }
+
+
+def without_seconds(path: Path) -> str:
+    """Return a table as text, without the rows and columns that hold times."""
+    with path.open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    kept = [row for row in rows if row.get("metric") != "seconds"]
+    return "\n".join(str({name: value for name, value in row.items() if name != "seconds"}) for row in kept)
 
 
 @pytest.fixture(scope="module")
