@@ -1,5 +1,8 @@
+import os
+import signal
 import subprocess
 import sys
+import time
 
 import pytest
 import yaml
@@ -61,3 +64,25 @@ def test_the_lock_of_a_living_run_stays(locked):
     finally:
         living.kill()
         living.wait()
+
+
+def test_ctrl_c_leaves_snakemake_the_time_to_clean_up(tmp_path):
+    tidy = (
+        "import pathlib, time\n"
+        f"here = pathlib.Path({str(tmp_path)!r})\n"
+        "(here / 'lock').touch()\n"
+        "try:\n    time.sleep(60)\n"
+        "except KeyboardInterrupt:\n    time.sleep(1)\n    (here / 'lock').unlink()\n    raise SystemExit(7)\n"
+    )
+    call = (
+        "import subprocess, sys\n"
+        "from morphoskel.workflow_run import wait_patiently\n"
+        f"sys.exit(wait_patiently(subprocess.Popen([sys.executable, '-c', {tidy!r}])))\n"
+    )
+    run = subprocess.Popen([sys.executable, "-c", call], start_new_session=True)
+    while not (tmp_path / "lock").exists():
+        assert run.poll() is None
+        time.sleep(0.05)
+    os.killpg(run.pid, signal.SIGINT)
+    assert run.wait(timeout=60) == 7
+    assert not (tmp_path / "lock").exists()

@@ -56,7 +56,17 @@ def run_workflow(
     command = snakemake_command(targets, overrides, options)
     # The display of progress tells how to go on after a failure.
     environment = {**os.environ, "MORPHOSKEL_COMMAND": typed_command(targets, overrides, options)}
-    return subprocess.run(command, cwd=repository, env=environment, check=False).returncode
+    with subprocess.Popen(command, cwd=repository, env=environment) as process:
+        return wait_patiently(process)
+
+
+def wait_patiently(process: subprocess.Popen[bytes]) -> int:
+    """Return the exit code of a process that gets Ctrl-C, too, and then has to clean up before it ends."""
+    while True:
+        try:
+            return process.wait()
+        except KeyboardInterrupt:
+            continue
 
 
 def typed_command(targets: Sequence[str], overrides: Sequence[str], options: Sequence[str]) -> str:
