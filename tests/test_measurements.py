@@ -14,7 +14,12 @@ def test_jobs_of_a_rule_are_added(run):
     measured = {each.rule: each for each in measure_run(run)}
     assert set(measured) == set(SECONDS)
     for rule, each in measured.items():
-        assert (each.jobs, each.shapes, each.files, each.source) == (2, SHAPES, SHAPES + 2, "small")
+        assert (each.jobs, each.shapes, each.files, each.source) == (
+            2,
+            SHAPES,
+            SHAPES + 4,
+            "small",
+        )  # status and checksums in each folder
         assert each.held == pytest.approx(2 * 2 * SECONDS[rule])  # two jobs that held two cores
         assert each.worked == pytest.approx(SECONDS[rule])
         assert each.size > SHAPES * BYTES
@@ -41,7 +46,7 @@ def test_another_file_is_refused(tmp_path):
 
 
 def test_what_was_removed_has_no_size(run):
-    for path in (run / "udf").rglob("*.*"):
+    for path in (path for path in (run / "udf").rglob("*") if path.is_file()):
         path.unlink()
     udf = next(each for each in measure_run(run) if each.rule == "udf")
     assert (udf.files, udf.shapes, udf.written_amount) == (0, 0, 0)

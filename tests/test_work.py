@@ -16,7 +16,7 @@ def test_benchmarks_lie_where_the_workflow_puts_them(rule):
     layout = WORK[rule].layout
     path = f"<benchmarks>/{rule}/{layout}" if layout else f"<benchmarks>/{rule}"
     if rule == "train_sampler":
-        path = path.replace("{", "{{").replace("}", "}}") + "{TRAINING}"
+        path = path.replace("{", "{{").replace("}", "}}") + "/{TRAINING}"
     assert f'"{path}.tsv"' in RULES
 
 

@@ -20,7 +20,7 @@ class BesideBars(logging.StreamHandler[TextIO]):
 
     def emit(self, record: logging.LogRecord) -> None:
         """Write a message."""
-        on_terminal = self.stream.isatty()
+        on_terminal = not self.stream.closed and self.stream.isatty()
         if on_terminal and record.name == PROGRESS:
             return
         tqdm = sys.modules.get("tqdm")  # not imported yet means that there is no bar

@@ -169,7 +169,7 @@ def _benchmarks(folder: Path, rule: str, work: Work) -> Iterator[tuple[dict[str,
     else:
         paths = sorted((root / rule).rglob("*.tsv"))
         groups = re.sub(r"\\{(\w+)\\}", r"(?P<\1>[^/]+?)", re.escape(work.layout))
-        ratio = "(?:/(?P<ratio>[0-9]+)/(?P<seed>[0-9]+))?" if rule == "train_sampler" else ""
+        ratio = "(?:/all|/(?P<ratio>[0-9]+)/(?P<seed>[0-9]+))" if rule == "train_sampler" else ""
         pattern = re.compile(f"{re.escape(rule)}/{groups}{ratio}")
     for path in paths:
         found = pattern.fullmatch(path.relative_to(root).with_suffix("").as_posix())
