@@ -25,7 +25,7 @@ lint: $(READY) ## format, lint and type checks alone
 	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/python -m snakemake --lint
 
 unit: $(READY) ## tests alone; `make unit ARGS="-k dilation"` picks some
-	$(BIN)/pytest $(ARGS)
+	$(BIN)/pytest --numprocesses auto --maxprocesses 8 --dist loadfile $(ARGS)
 
 plan: $(READY) ## what the published protocol will cost, or any: `make plan ARGS="experiment=demo --at-once 4"`
 	@$(BIN)/morphoskel plan $(or $(ARGS),experiment=paper)
