@@ -3,7 +3,7 @@ import logging
 import pytest
 import torch
 
-from morphoskel.learning.damaged_checkpoints import discard_damaged
+from morphoskel.learning.damaged_checkpoints import discard_damaged, is_finished
 
 
 @pytest.fixture
@@ -52,3 +52,13 @@ def test_a_best_one_before_the_first_last_is_left_to_the_training(folder):
 
 def test_nothing_there_is_no_error(tmp_path):
     discard(tmp_path / "absent")
+
+
+def test_a_damaged_network_is_not_the_end_of_a_training(folder, caplog):
+    path = folder / "last.ckpt"
+    assert is_finished(path)
+    path.write_bytes(path.read_bytes()[:-1])
+    assert not is_finished(path)
+    assert not path.exists()
+    assert "is written again" in caplog.text
+    assert not is_finished(path)

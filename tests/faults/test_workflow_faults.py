@@ -142,12 +142,17 @@ def test_a_damaged_file_is_refused_until_it_is_made_again(repository, undisturbe
 
 
 @pytest.mark.parametrize("how", DAMAGE)
-def test_a_damaged_checkpoint_is_not_used(repository, undisturbed, how):
-    for path in (repository / RESULTS / "checkpoints").rglob("last.ckpt"):
+@pytest.mark.parametrize(("name", "said"), [("last.ckpt", "starts anew"), ("network.pt", "is written again")])
+def test_a_damaged_checkpoint_is_not_used(repository, undisturbed, name, said, how):
+    checkpoints = repository / RESULTS / "checkpoints"
+    for path in checkpoints.rglob(name):
         DAMAGE[how](path)
+    if name == "last.ckpt":  # beside the network of a finished training, it would not be read
+        for path in checkpoints.rglob("network.pt"):
+            path.unlink()
     remove(repository, *TRAINED, TABLES)
     check_rerun(repository, undisturbed)
-    assert "starts anew" in (repository / RESULTS / "logs/train_point2skeleton.log").read_text()
+    assert said in (repository / RESULTS / "logs/train_point2skeleton.log").read_text()
     assert (repository / NETWORK).read_bytes() == (undisturbed / NETWORK).read_bytes()
 
 

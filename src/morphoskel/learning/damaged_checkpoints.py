@@ -1,4 +1,4 @@
-"""Keep a training from going on with checkpoints that are damaged."""
+"""Keep a training from going on with files that are damaged."""
 
 import logging
 import shutil
@@ -30,3 +30,16 @@ def discard_damaged(folder: Path, last: str, best: str) -> None:
     except (StorageError, FileNotFoundError) as error:
         logger.warning("%s; this phase of the training starts anew", error)
         shutil.rmtree(folder)
+
+
+def is_finished(result: Path) -> bool:
+    """Tell whether the network of a finished training is there; a damaged one is removed, to be written again."""
+    if not result.exists():
+        return False
+    try:
+        intact_archive(result)
+    except StorageError as error:
+        logger.warning("%s; the network is written again from the checkpoints", error)
+        result.unlink()
+        return False
+    return True

@@ -11,6 +11,7 @@ from torch import Tensor
 from morphoskel.errors import InputError
 from morphoskel.learning.claim import claim
 from morphoskel.learning.classifier_phase import ClassifierPhase
+from morphoskel.learning.damaged_checkpoints import is_finished
 from morphoskel.learning.resumable_fit import resumable_fit
 from morphoskel.networks.classifier_settings import ClassifierSettings
 from morphoskel.networks.pointnet_classifier import PointNetClassifier, save_classifier
@@ -86,7 +87,7 @@ def train_classifier(
     }
     claim(folder, identity, [*training, *validation])
     result = folder / NETWORK_FILE
-    if result.exists():
+    if is_finished(result):
         return result
     with torch.random.fork_rng():
         torch.manual_seed(derive_seed(seed, "classifier", "initial weights"))

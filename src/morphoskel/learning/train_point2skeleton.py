@@ -10,6 +10,7 @@ from torch import Tensor
 
 from morphoskel.errors import InputError
 from morphoskel.learning.claim import claim
+from morphoskel.learning.damaged_checkpoints import is_finished
 from morphoskel.learning.point2skeleton_phases import PRETRAIN, SKELETON, LinkPhase, SkeletalPointPhase
 from morphoskel.learning.resumable_fit import resumable_fit
 from morphoskel.networks.cloud_preparation import prepare_cloud
@@ -79,7 +80,7 @@ def train_point2skeleton(
     identity = {"settings": settings.as_mapping(), "seed": seed}
     claim(checkpoint_folder, identity, [training_points, validation_points])
     result = checkpoint_folder / NETWORK_FILE
-    if result.exists():
+    if is_finished(result):
         return result
     with torch.random.fork_rng():
         torch.manual_seed(derive_seed(seed, "point2skeleton", "initial weights"))

@@ -15,6 +15,7 @@ import torch
 from morphoskel.datasets.cloud_set import CloudSet
 from morphoskel.errors import ConfigError, InputError
 from morphoskel.learning.claim import claim
+from morphoskel.learning.damaged_checkpoints import is_finished
 from morphoskel.learning.generator_phases import GeneratorPhase
 from morphoskel.learning.hold_out import hold_out
 from morphoskel.learning.resumable_fit import BatchedPhase, resumable_fit
@@ -129,7 +130,7 @@ def train_sampler(
     }
     claim(folder, identity, [tensor for part in data for tensor in part])
     result = folder / NETWORK_FILE
-    if result.exists():
+    if is_finished(result):
         return result
     with torch.random.fork_rng():
         phase, save = _phase(training, data[0], data[1], tuple(classifiers))

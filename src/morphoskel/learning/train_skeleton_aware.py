@@ -9,6 +9,7 @@ from torch import Tensor
 
 from morphoskel.errors import InputError
 from morphoskel.learning.claim import claim
+from morphoskel.learning.damaged_checkpoints import is_finished
 from morphoskel.learning.resumable_fit import resumable_fit
 from morphoskel.learning.skeleton_aware_phases import PRETRAIN, SKELETON, SkeletonAwarePhase
 from morphoskel.networks.skeleton_aware_network import SkeletonAwareNetwork, cloud_neighbourhoods, save_skeleton_aware
@@ -75,7 +76,7 @@ def train_skeleton_aware(
     identity = {"network": "skeleton_aware", "settings": settings.as_mapping(), "seed": seed}
     claim(folder, identity, [points, validation])
     result = folder / NETWORK_FILE
-    if result.exists():
+    if is_finished(result):
         return result
     training_pair = (points, cloud_neighbourhoods(points, settings))
     validation_pair = (validation, cloud_neighbourhoods(validation, settings))
