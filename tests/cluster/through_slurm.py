@@ -86,6 +86,14 @@ def first_job(rule: str, cluster: dict[str, str], state: str = "RUNNING") -> str
     raise AssertionError(f"no job of {rule} became {state}")
 
 
+def cancel(job: str, cluster: dict[str, str]) -> None:
+    """Cancel a job, and wait until its processes are gone."""
+    subprocess.run(["scancel", job], env=os.environ | cluster, check=True)
+    listing = ["squeue", "--noheader", f"--jobs={job}"]
+    while subprocess.run(listing, env=os.environ | cluster, capture_output=True, check=False).stdout.strip():
+        time.sleep(0.1)
+
+
 def contents(repository: Path) -> dict[str, str]:
     """Return the results that have to be the same wherever they were computed, by their paths.
 
@@ -132,7 +140,7 @@ def test_a_cancelled_job_is_submitted_again(cluster, tmp_path):
     repository = linked_repository(tmp_path / "repository")
     process = morphoskel_run(repository, MANIFEST, on=cluster)
     try:
-        subprocess.run(["scancel", first_job("generate_synthetic", cluster)], env=os.environ | cluster, check=True)
+        cancel(first_job("generate_synthetic", cluster), cluster)
     except BaseException:
         kill_run(process)
         raise
@@ -149,7 +157,7 @@ def test_a_killed_run_goes_on(cluster, tmp_path):
         orphan = first_job("generate_synthetic", cluster)
     finally:
         kill_run(process)
-    subprocess.run(["scancel", orphan], env=os.environ | cluster, check=True)
+    cancel(orphan, cluster)
     printed = wait_for(morphoskel_run(repository, MANIFEST, on=cluster), repository)
     assert "its lock is removed" in printed
     assert (repository / MANIFEST).exists()
