@@ -72,18 +72,22 @@ def kill_run(process: subprocess.Popen[str]) -> None:
     process.wait()
 
 
-def first_job(rule: str, cluster: dict[str, str], state: str = "RUNNING") -> str:
-    """Return the number of the first job of a rule, once it is in that state."""
-    command = ["squeue", "--noheader", f"--states={state}", "--format=%i %k"]
+def first_job(rule: str, cluster: dict[str, str]) -> str:
+    """Return the number of the first job of a rule, once it is at work.
+
+    A job that is cancelled in its first moment may leave a process behind, as the cluster has no cgroups.
+    """
+    command = ["squeue", "--noheader", "--states=RUNNING", "--format=%i %k"]
     deadline = time.monotonic() + 600
     while time.monotonic() < deadline:
         listed = subprocess.run(command, env=os.environ | cluster, capture_output=True, text=True, check=False)
         for line in listed.stdout.splitlines():
             number, _, comment = line.partition(" ")
             if comment.startswith(f"rule_{rule}"):
+                time.sleep(3)
                 return number
         time.sleep(0.1)
-    raise AssertionError(f"no job of {rule} became {state}")
+    raise AssertionError(f"no job of {rule} was started")
 
 
 def cancel(job: str, cluster: dict[str, str]) -> None:
