@@ -72,18 +72,30 @@ def kill_run(process: subprocess.Popen[str]) -> None:
     process.wait()
 
 
-def first_job(rule: str, cluster: dict[str, str], state: str = "RUNNING") -> str:
-    """Return the number of the first job of a rule, once it is in that state."""
-    command = ["squeue", "--noheader", f"--states={state}", "--format=%i %k"]
+def first_job(rule: str, cluster: dict[str, str]) -> str:
+    """Return the number of the first job of a rule, once it is at work.
+
+    A job that is cancelled in its first moment may leave a process behind, as the cluster has no cgroups.
+    """
+    command = ["squeue", "--noheader", "--states=RUNNING", "--format=%i %k"]
     deadline = time.monotonic() + 600
     while time.monotonic() < deadline:
         listed = subprocess.run(command, env=os.environ | cluster, capture_output=True, text=True, check=False)
         for line in listed.stdout.splitlines():
             number, _, comment = line.partition(" ")
             if comment.startswith(f"rule_{rule}"):
+                time.sleep(3)
                 return number
         time.sleep(0.1)
-    raise AssertionError(f"no job of {rule} became {state}")
+    raise AssertionError(f"no job of {rule} was started")
+
+
+def cancel(job: str, cluster: dict[str, str]) -> None:
+    """Cancel a job, and wait until its processes are gone."""
+    subprocess.run(["scancel", job], env=os.environ | cluster, check=True)
+    listing = ["squeue", "--noheader", f"--jobs={job}"]
+    while subprocess.run(listing, env=os.environ | cluster, capture_output=True, check=False).stdout.strip():
+        time.sleep(0.1)
 
 
 def contents(repository: Path) -> dict[str, str]:
@@ -132,7 +144,7 @@ def test_a_cancelled_job_is_submitted_again(cluster, tmp_path):
     repository = linked_repository(tmp_path / "repository")
     process = morphoskel_run(repository, MANIFEST, on=cluster)
     try:
-        subprocess.run(["scancel", first_job("generate_synthetic", cluster)], env=os.environ | cluster, check=True)
+        cancel(first_job("generate_synthetic", cluster), cluster)
     except BaseException:
         kill_run(process)
         raise
@@ -149,7 +161,7 @@ def test_a_killed_run_goes_on(cluster, tmp_path):
         orphan = first_job("generate_synthetic", cluster)
     finally:
         kill_run(process)
-    subprocess.run(["scancel", orphan], env=os.environ | cluster, check=True)
+    cancel(orphan, cluster)
     printed = wait_for(morphoskel_run(repository, MANIFEST, on=cluster), repository)
     assert "its lock is removed" in printed
     assert (repository / MANIFEST).exists()
