@@ -26,6 +26,7 @@ SKELETONS = f"{RESULTS}/skeletons/{SET}/test/poisson/ms3d/00000"
 PREDICTED = f"{RESULTS}/skeletons/{SET}/test/cloud/point2skeleton"
 PREDICTED_EVALUATED = f"{RESULTS}/evaluation/{SET}/test/cloud/point2skeleton.csv"
 TABLES = f"{RESULTS}/tables"
+CHAIN = ["surfaces", "watertight", "occupancy", "udf", "dilation"]
 TRAINED = [NETWORK, PREDICTED, PREDICTED_EVALUATED]
 
 
@@ -56,8 +57,8 @@ def remove(repository, *names):
         shutil.rmtree(path) if path.is_dir() else path.unlink()
 
 
-def check_rerun(repository, undisturbed):
-    run(repository, *WORDS)
+def check_rerun(repository, undisturbed, *options):
+    run(repository, *WORDS, *options)
     assert tables(repository) == tables(undisturbed)
     assert list(repository.rglob("*.partial")) == []
 
@@ -172,14 +173,15 @@ def test_an_unreadable_input_is_named_with_shape_stage_and_log(repository, undis
     content = cloud.read_bytes()
     cloud.unlink()
     cloud.symlink_to("nowhere")
-    remove(repository, f"{RESULTS}/surfaces", TABLES)
+    remove(repository, *(f"{RESULTS}/{stage}" for stage in CHAIN), f"{RESULTS}/skeletons/{SET}/test/poisson")
+    remove(repository, EVALUATED, TABLES)
     output = run(repository, *WORDS, check=False)
     assert "mug-test-0001: reconstruct: InputError" in output
     assert f"(log: {RESULTS}/logs/reconstruct/{SHARD}.log)" in output
     cloud.unlink()
     cloud.write_bytes(content)
-    remove(repository, f"{RESULTS}/surfaces/{SHARD}")
-    check_rerun(repository, undisturbed)
+    assert "--forcerun STAGE" in output
+    check_rerun(repository, undisturbed, "--", "--forcerun", "reconstruct")
 
 
 def test_the_library_has_no_switch_for_faults():

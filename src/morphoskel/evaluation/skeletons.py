@@ -197,6 +197,6 @@ def check_failures(rows: Iterable[Mapping[str, Any]], max_failed: int) -> None:
         raise ShapeError(
             f"{len(failed)} shapes failed, {max_failed} are tolerated (max_failed):\n  {shown}{more}\n"
             "Mend the input or the settings; or raise max_failed, and the tables state how many failed. "
-            "A shape that was killed, as for want of memory, is tried again once the folder of that stage and shard "
-            "is removed"
+            "They are tried again only when something changed that a stage depends on, or when asked for: "
+            "morphoskel run ... -- --forcerun STAGE"
         )
