@@ -1,7 +1,7 @@
 import pytest
 import torch
 
-from morphoskel.errors import ConfigError, InputError
+from morphoskel.errors import ConfigError, InputError, StorageError
 from morphoskel.networks.network_file import read_network, write_network
 
 
@@ -18,8 +18,11 @@ def test_weights_and_values_come_back(tmp_path):
 def test_a_missing_or_broken_file_is_named(tmp_path):
     with pytest.raises(InputError, match="no trained layer there"), read_network(tmp_path / "absent.pt", "layer"):
         pass
+    (tmp_path / "text.pt").write_text("no network")
+    with pytest.raises(InputError, match="not a layer of this version"), read_network(tmp_path / "text.pt", "layer"):
+        pass
     (tmp_path / "empty.pt").touch()
-    with pytest.raises(InputError, match="not a layer of this version"), read_network(tmp_path / "empty.pt", "layer"):
+    with pytest.raises(StorageError, match=r"empty\.pt: is damaged"), read_network(tmp_path / "empty.pt", "layer"):
         pass
 
 

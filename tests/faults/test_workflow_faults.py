@@ -181,7 +181,7 @@ def test_an_unreadable_input_is_named_with_shape_stage_and_log(repository, undis
     cloud.unlink()
     cloud.write_bytes(content)
     assert "--forcerun STAGE" in output
-    check_rerun(repository, undisturbed, "--", "--forcerun", "reconstruct")
+    check_rerun(repository, undisturbed, "--", "--forcerun", "reconstruct", "point2skeleton")
 
 
 def test_the_library_has_no_switch_for_faults():

@@ -52,10 +52,17 @@ def read_network(path: Path | str, what: str) -> Iterator[dict[str, Any]]:
         If the file is damaged; PyTorch itself does not notice turned bits.
     """
     try:
-        yield torch.load(intact_archive(Path(path)), map_location="cpu", weights_only=True)
+        yield torch.load(_checked(Path(path)), map_location="cpu", weights_only=True)
     except FileNotFoundError as error:
         raise InputError(f"{path}: no trained {what} there; train one first") from error
     except StorageError:
         raise
     except Exception as error:  # whatever PyTorch meets in damaged data, or a network in values of another version
         raise InputError(f"{path}: not a {what} of this version ({error}); train it again") from error
+
+
+def _checked(path: Path) -> Path:
+    """Return the path of a file that was a network and is whole, or that never was one, which PyTorch tells best."""
+    with path.open("rb") as stream:
+        was_network = stream.read(2) in (b"PK", b"")  # how an archive begins, and what a lost file is cut to
+    return intact_archive(path) if was_network else path
