@@ -5,7 +5,8 @@ from typing import ClassVar
 import pytest
 import torch
 
-from morphoskel.learning.resumable_fit import LOG_COLUMNS, BatchedPhase, resumable_fit
+from morphoskel.learning.epoch_records import LOG_COLUMNS
+from morphoskel.learning.resumable_fit import BatchedPhase, resumable_fit
 
 
 @pytest.fixture(autouse=True, scope="module")

@@ -3,6 +3,7 @@ import pytest
 from solids import sphere_cloud
 
 from morphoskel.chain.status import Status, write_status
+from morphoskel.checksums import write_checksums
 from morphoskel.config import compose
 from morphoskel.datasets.configured import open_configured
 from morphoskel.datasets.manifest import build_manifest, read_manifest, write_manifest
@@ -75,6 +76,7 @@ def test_equal_counts_and_dense_balls_are_rows_of_their_own(evaluated):
     first = read_ids(manifest)[0]
     curve = Skeleton(np.array([[0, 0, -0.5], [0, 0, 0.5]]), [0.5, 0.5], edges=[[0, 1]])
     write_skeleton_ply(folders[0] / f"{first}.ply", curve)
+    write_checksums(folders[0])
     rows = evaluate_skeletons(manifest, folders, axes, **arguments, balls=Balls(equal_counts=(1, 7), dense=30))
     assert rows["balls"].tolist() == ["as is", "dense", "1", "7"] * 2
     assert rows["spheres"].tolist()[:4] == [2, 30, 1, 7]

@@ -75,7 +75,7 @@ def run_with(repository, faults):
     ("rule", "module", "function", "again"),
     [
         ("train_point2skeleton", "learning.resumable_fit", "BatchedPhase.validation_step", TRAINED),
-        ("train_point2skeleton", "learning.resumable_fit", "_LastEpoch.on_train_epoch_end", TRAINED),
+        ("train_point2skeleton", "learning.epoch_records", "LastEpoch.on_train_epoch_end", TRAINED),
         ("evaluate_skeletons", "evaluation.skeletons", "_measure", [EVALUATED]),
     ],
 )

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import csv
 import logging
 import pickle
-import time
 import warnings
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import lightning
 import torch
-from lightning.pytorch.callbacks import Callback, Checkpoint, ModelCheckpoint
+from lightning.pytorch.callbacks import ModelCheckpoint
 from lightning.pytorch.loggers import TensorBoardLogger
 
-from morphoskel.atomic import atomic_file
-from morphoskel.checksums import checked_file, intact
 from morphoskel.errors import InputError
 from morphoskel.learning.damaged_checkpoints import discard_damaged
+from morphoskel.learning.epoch_records import LastEpoch, LossTable
 from morphoskel.progress import shows_bars
 from morphoskel.seeds import derive_seed
 
@@ -27,7 +23,6 @@ logger = logging.getLogger(__name__)
 
 LAST = "last.ckpt"
 BEST = "best.ckpt"
-LOG_COLUMNS = ("epoch", "training_loss", "validation_loss", "seconds")
 
 
 class Batches:
@@ -141,48 +136,6 @@ class BatchedPhase(lightning.LightningModule):
         return (trainer.global_rank, trainer.world_size) if trainer is not None else (0, 1)
 
 
-class _LossTable(Callback):
-    """Write a row an epoch to a CSV file; rows of epochs that are run again after a kill are replaced."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self.started = time.perf_counter()
-
-    def on_train_epoch_start(self, trainer: lightning.Trainer, pl_module: lightning.LightningModule) -> None:
-        self.started = time.perf_counter()
-
-    def on_train_epoch_end(self, trainer: lightning.Trainer, pl_module: lightning.LightningModule) -> None:
-        if not trainer.is_global_zero:
-            return
-        rows: list[list[Any]] = []
-        if self.path.exists():
-            with intact(self.path).open(newline="") as file:
-                rows = [row for row in list(csv.reader(file))[1:] if int(row[0]) < trainer.current_epoch]
-        losses = [f"{float(trainer.callback_metrics[name]):.6g}" for name in LOG_COLUMNS[1:3]]
-        rows.append([trainer.current_epoch, *losses, f"{time.perf_counter() - self.started:.2f}"])
-        with checked_file(self.path) as partial, partial.open("w", newline="") as file:
-            csv.writer(file).writerows([LOG_COLUMNS, *rows])
-        logger.info("%s: epoch %s, training loss %s, validation loss %s, %s s", self.path.stem, *rows[-1])
-
-
-class _LastEpoch(Checkpoint):
-    """Keep the state after the last epoch, which Lightning's own option does only if that epoch was the best so far.
-
-    Lightning calls its checkpoints in the order given, after other callbacks: this one must come after the best one, so
-    that it holds that one's state.
-    """
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-
-    def on_train_epoch_end(self, trainer: lightning.Trainer, pl_module: lightning.LightningModule) -> None:
-        if trainer.world_size > 1:
-            trainer.save_checkpoint(self.path)  # every device takes part
-            return
-        with atomic_file(self.path) as partial:
-            trainer.save_checkpoint(partial)
-
-
 def resumable_fit(
     phase: BatchedPhase, epochs: int, folder: Path, *, accelerator: str, devices: int = 1, progress: bool = True
 ) -> None:
@@ -245,7 +198,7 @@ def _trainer(name: str, epochs: int, folder: Path, accelerator: str, devices: in
         strategy="ddp_spawn" if devices > 1 else "auto",
         use_distributed_sampler=False,  # the phase deals its batches out itself
         max_epochs=epochs,
-        callbacks=[_LossTable(folder / f"{name}.csv"), best, _LastEpoch(folder / name / LAST)],
+        callbacks=[LossTable(folder / f"{name}.csv"), best, LastEpoch(folder / name / LAST)],
         logger=TensorBoardLogger(folder / "curves", name=name, version=""),
         log_every_n_steps=1,
         default_root_dir=folder,
