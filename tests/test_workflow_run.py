@@ -68,14 +68,16 @@ def test_the_lock_of_a_living_run_stays(locked):
 
 def test_ctrl_c_leaves_snakemake_the_time_to_clean_up(tmp_path):
     tidy = (
-        "import pathlib, time\n"
+        "import pathlib, signal, time\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # ignored where a shell started this behind itself
         f"here = pathlib.Path({str(tmp_path)!r})\n"
         "(here / 'lock').touch()\n"
         "try:\n    time.sleep(60)\n"
         "except KeyboardInterrupt:\n    time.sleep(1)\n    (here / 'lock').unlink()\n    raise SystemExit(7)\n"
     )
     call = (
-        "import subprocess, sys\n"
+        "import signal, subprocess, sys\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "from morphoskel.workflow_run import wait_patiently\n"
         f"sys.exit(wait_patiently(subprocess.Popen([sys.executable, '-c', {tidy!r}])))\n"
     )
