@@ -211,8 +211,11 @@ def test_the_page_shows_every_table_and_figure(smoke):
 
 
 def test_what_is_passed_on_tells_nothing_of_this_machine(smoke):
+    """Report, tables and figures, and the report that Snakemake makes of them."""
     folder = smoke[0] / "results/smoke"
-    for name in ("report", "tables", "figures"):
+    (folder / "snakemake").mkdir()
+    run(smoke[0], "experiment=smoke", "--", "--report", "results/smoke/snakemake/report.html")
+    for name in ("report", "tables", "figures", "snakemake"):
         assert telling(folder / name, [str(smoke[0]), str(Path.home())]) == []
 
 

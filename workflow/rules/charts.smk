@@ -61,7 +61,7 @@ use rule figure_distances as figure_stage_times with:
         flat(
             {
                 "times": list(map(str, rules.table_processing_time.input.rows)),
-                "published_folder": str(Path(workflow.basedir) / "config/paper"),
+                "published_folder": str(CLONE / "config/paper"),
             }
         ),
     output:
@@ -82,7 +82,7 @@ use rule figure_distances as figure_stage_times with:
         module="stage_times_files",
         files={
             "times": list(map(str, rules.table_processing_time.input.rows)),
-            "published_folder": str(Path(workflow.basedir) / "config/paper"),
+            "published_folder": str(CLONE / "config/paper"),
         },
         values={},
         numbers=numbers("stage_times"),

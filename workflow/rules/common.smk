@@ -17,6 +17,9 @@ os.environ.update(PYTHONPATH=f"{workflow.basedir}/src")
 
 remember_digests(Path(".snakemake/code_digests.json"))
 
+# Relative to the working directory: reports name the inputs of jobs, and shall tell nothing of the machine.
+CLONE = Path(os.path.relpath(workflow.basedir))
+
 CONFIG = compose(config.get("overrides", []), Path(workflow.basedir) / "config")
 SECTIONS = CONFIG.model_dump(mode="json")
 

@@ -7,9 +7,7 @@ rule html_report:
         rules.write_config.output[0],
         tables=every_table(),
         figures=expand("<results>/figures/{name}.png", name=every_figure()),
-        captions=expand(
-            Path(workflow.basedir) / "workflow/report/{name}.rst", name=every_figure()
-        ),
+        captions=expand(CLONE / "workflow/report/{name}.rst", name=every_figure()),
         manifests=expand("resources/manifest/{dataset}.csv", dataset=DATASETS),
     output:
         report(

@@ -4,8 +4,8 @@
 rule table_skeleton_reconstruction:
     input:
         rows=evaluations(skeleton_methods()),
-        published=Path(workflow.basedir) / "config/paper/skeleton_reconstruction.csv",
-        counts=Path(workflow.basedir) / "config/paper/processing_time.csv",
+        published=CLONE / "config/paper/skeleton_reconstruction.csv",
+        counts=CLONE / "config/paper/processing_time.csv",
     output:
         csv="<results>/tables/skeleton_reconstruction.csv",
         tex="<results>/tables/skeleton_reconstruction.tex",
@@ -33,9 +33,8 @@ rule table_skeleton_reconstruction:
 rule table_surface_reconstruction:
     input:
         rows=evaluations(surface_methods()),
-        published=Path(workflow.basedir)
-        / "config/paper/surface_reconstruction_ablation.csv",
-        counts=Path(workflow.basedir) / "config/paper/processing_time.csv",
+        published=CLONE / "config/paper/surface_reconstruction_ablation.csv",
+        counts=CLONE / "config/paper/processing_time.csv",
     output:
         csv="<results>/tables/surface_reconstruction.csv",
         tex="<results>/tables/surface_reconstruction.tex",
@@ -68,7 +67,7 @@ rule table_processing_time:
             split=CONFIG.evaluation.split,
             surface=CONFIG.surface.names,
         ),
-        published=Path(workflow.basedir) / "config/paper/processing_time.csv",
+        published=CLONE / "config/paper/processing_time.csv",
     output:
         csv="<results>/tables/processing_time.csv",
         tex="<results>/tables/processing_time.tex",
@@ -97,7 +96,7 @@ rule table_object_classification:
     input:
         shapes=judged("shapes"),
         draws=judged("draws"),
-        published=Path(workflow.basedir) / "config/paper/object_classification_oa.csv",
+        published=CLONE / "config/paper/object_classification_oa.csv",
     output:
         csv="<results>/tables/object_classification.csv",
         tex="<results>/tables/object_classification.tex",
@@ -126,7 +125,7 @@ rule table_point_cloud_retrieval:
     input:
         shapes=judged("shapes"),
         draws=judged("draws"),
-        published=Path(workflow.basedir) / "config/paper/point_cloud_retrieval_map.csv",
+        published=CLONE / "config/paper/point_cloud_retrieval_map.csv",
     output:
         csv="<results>/tables/point_cloud_retrieval.csv",
         tex="<results>/tables/point_cloud_retrieval.tex",
@@ -155,7 +154,7 @@ rule table_skeleton_prior:
     input:
         shapes=judged("shapes"),
         draws=judged("draws"),
-        published=Path(workflow.basedir) / "config/paper/skeleton_prior_oa.csv",
+        published=CLONE / "config/paper/skeleton_prior_oa.csv",
     output:
         csv="<results>/tables/skeleton_prior.csv",
         tex="<results>/tables/skeleton_prior.tex",
@@ -183,7 +182,7 @@ rule table_skeleton_prior:
 rule table_part_segmentation:
     input:
         rows=segmented(),
-        published=Path(workflow.basedir) / "config/paper/part_segmentation_miou.csv",
+        published=CLONE / "config/paper/part_segmentation_miou.csv",
     output:
         csv="<results>/tables/part_segmentation.csv",
         tex="<results>/tables/part_segmentation.tex",
