@@ -9,15 +9,16 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from types import CodeType, FrameType
+from types import FrameType
 from typing import Any
 
 import morphoskel
 
 _PACKAGE = str(next(iter(morphoskel.__path__)))
 
-Steps = set[tuple[CodeType, int, int]]
-"""From one line to the next one of the same function."""
+Steps = set[tuple[int, int, int]]
+"""From one line to the next one of the same function, which is told by its code's address: hashing the code object itself
+goes over all that is in it."""
 
 
 @contextmanager
@@ -29,12 +30,12 @@ def traced() -> Iterator[Steps]:
         code = frame.f_code
         if not code.co_filename.startswith(_PACKAGE):
             return None
-        last = 0
+        function, last = id(code), 0
 
         def follow(frame: FrameType, event: str, argument: Any) -> Callable[..., Any]:
             nonlocal last
             if event == "line":
-                steps.add((code, last, frame.f_lineno))
+                steps.add((function, last, frame.f_lineno))
                 last = frame.f_lineno
             return follow
 
