@@ -1,6 +1,11 @@
 import pytest
 
-from morphoskel.run_progress.earlier_durations import earlier_durations
+from morphoskel.run_progress.earlier_durations import (
+    REFERENCE,
+    earlier_durations,
+    record_reference,
+    reference_durations,
+)
 
 HEADER = "s\th:m:s\tmax_rss\n"
 
@@ -36,3 +41,20 @@ def test_damaged_files_are_passed_over(tmp_path, text):
 
 def test_no_earlier_run(tmp_path):
     assert earlier_durations(tmp_path / "results", "demo") == {}
+
+
+def test_a_run_can_be_recorded_for_the_first_runs_of_others(tmp_path):
+    put(tmp_path / "demo/benchmarks/udf/a.tsv", 2.0)
+    put(tmp_path / "demo/benchmarks/train_point2skeleton.tsv", 70.5)
+    (tmp_path / "reference").mkdir()
+    record_reference(tmp_path, "demo")
+    assert reference_durations(tmp_path) == {"udf": 2.0, "train_point2skeleton": 70.5}
+    assert earlier_durations(tmp_path, "new") == {"udf": 2.0, "train_point2skeleton": 70.5}  # of the demo itself
+
+
+@pytest.mark.parametrize("text", [None, "", "rule,seconds\nudf\n", "rule,seconds\nudf,much\n"])
+def test_without_a_record_nothing_is_known(tmp_path, text):
+    if text is not None:
+        (tmp_path / "reference").mkdir()
+        (tmp_path / REFERENCE).write_text(text)
+    assert reference_durations(tmp_path) == {}

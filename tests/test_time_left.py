@@ -81,3 +81,17 @@ def test_what_is_learned_late_counts():
     left = TimeLeft({"udf": 2})
     left.learn({"udf": 5.0})
     assert left.seconds(0.0) == pytest.approx(10.0)
+
+
+def test_a_reference_is_scaled_by_what_this_run_took_for_the_same():
+    left = TimeLeft({"udf": 2, "train": 1}, reference={"udf": 2.0, "train": 30.0})
+    assert left.seconds(0.0) == pytest.approx(34.0)
+    left.start(1, "udf", 0.0)
+    left.finish(1, 6.0)
+    assert left.seconds(6.0) == pytest.approx(6.0 + 3 * 30.0)
+
+
+def test_an_earlier_run_says_more_than_the_reference():
+    left = TimeLeft({"train": 1})
+    left.learn({"train": 7.0}, {"train": 30.0})
+    assert left.seconds(0.0) == pytest.approx(7.0)

@@ -17,8 +17,7 @@ import morphoskel
 _PACKAGE = str(next(iter(morphoskel.__path__)))
 
 Steps = set[tuple[int, int, int]]
-"""From one line to the next one of the same function, which is told by its code's address: hashing the code object itself
-goes over all that is in it."""
+"""From a line to the next one of the same function, told by the address of its code: its hash is slow to compute."""
 
 
 @contextmanager

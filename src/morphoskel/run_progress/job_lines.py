@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from morphoskel.durations import describe_roughly, describe_seconds
-from morphoskel.run_progress.earlier_durations import earlier_durations
+from morphoskel.run_progress.earlier_durations import earlier_durations, reference_durations
 from morphoskel.run_progress.outcome import Job, describe_failures, describe_results
 from morphoskel.run_progress.time_left import TimeLeft
 
@@ -94,4 +94,4 @@ class JobLines:
         found = next((found for path in (*job.outputs, *job.logs) if (found := _RUN.match(path))), None)
         if self._run is None and found:
             self._run = found[1]
-            self._left.learn(earlier_durations(self._results, self._run))
+            self._left.learn(earlier_durations(self._results, self._run), reference_durations(self._results))

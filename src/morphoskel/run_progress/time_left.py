@@ -12,8 +12,10 @@ KNOWN_SHARE = 0.5
 class TimeLeft:
     """Weigh the jobs that are left by what jobs of their rules took.
 
-    What a rule takes is the mean of its jobs in this run, else that in earlier runs, else the mean of rules whose name
-    begins with the same word (``figure_residue`` and ``figure_spheres``), else the mean of all rules that are known.
+    What a rule takes is the mean of its jobs in this run, else that in earlier runs, else that of a reference run on
+    another machine, scaled by how long this run took for what both have done. A rule unknown to all of them counts as
+    the mean of rules whose name begins with the same word (``figure_residue`` and ``figure_spheres``), else as the mean
+    of all rules that are known.
 
     Times are seconds on any clock that runs evenly.
 
@@ -23,19 +25,28 @@ class TimeLeft:
         Number of jobs of each rule.
     earlier
         Mean seconds of a job of each rule in earlier runs.
+    reference
+        The same of a run on another machine.
     """
 
-    def __init__(self, jobs: Mapping[str, int], earlier: Mapping[str, float] | None = None) -> None:
+    def __init__(
+        self,
+        jobs: Mapping[str, int],
+        earlier: Mapping[str, float] | None = None,
+        reference: Mapping[str, float] | None = None,
+    ) -> None:
         self._waiting = dict(jobs)
         self._earlier = dict(earlier or {})
+        self._reference = dict(reference or {})
         self._running: dict[int, tuple[str, float]] = {}
         self._measured: dict[str, list[float]] = {}
         self._began: float | None = None
         self._worked = 0.0
 
-    def learn(self, earlier: Mapping[str, float]) -> None:
-        """Add mean seconds of a job of each rule in earlier runs."""
+    def learn(self, earlier: Mapping[str, float], reference: Mapping[str, float] | None = None) -> None:
+        """Add mean seconds of a job of each rule in earlier runs and in a reference run."""
         self._earlier.update(earlier)
+        self._reference.update(reference or {})
 
     def start(self, job: int, rule: str, now: float) -> None:
         """Count a job as running."""
@@ -97,4 +108,12 @@ class TimeLeft:
         return fmean(of_run or known.values())
 
     def _known(self) -> dict[str, float]:
-        return self._earlier | {rule: fmean(seconds) for rule, seconds in self._measured.items()}
+        measured = {rule: fmean(seconds) for rule, seconds in self._measured.items()}
+        slowness = self._slowness()
+        return {rule: slowness * seconds for rule, seconds in self._reference.items()} | self._earlier | measured
+
+    def _slowness(self) -> float:
+        """Return how many times as long as the reference this run took for the jobs that are done."""
+        done = [(rule, seconds) for rule, seconds in self._measured.items() if self._reference.get(rule)]
+        expected = sum(self._reference[rule] * len(seconds) for rule, seconds in done)
+        return sum(sum(seconds) for _, seconds in done) / expected if expected else 1.0
