@@ -115,6 +115,6 @@ def test_a_constant_input_is_mapped_to_the_bias():
 
 
 def test_a_single_row_cannot_be_normalised_in_training():
-    with pytest.raises(ValueError, match="more than one row"):
+    with pytest.raises(ValueError, match="more than 1 value"):
         a_layer(NormalisedLinear)(torch.ones(1, 5, dtype=torch.float64))
     assert a_layer(NormalisedLinear).eval()(torch.ones(1, 5, dtype=torch.float64)).shape == (1, 40)

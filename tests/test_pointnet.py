@@ -37,8 +37,8 @@ def test_the_encoder_is_that_of_the_paper():
     encoder, points = PointNetEncoder(), torch.randn(6, 40, 3)
     features = encoder(points)
     expected_points, expected_cloud = naive_encoder(encoder, points)
-    torch.testing.assert_close(features.points, expected_points, atol=1e-4, rtol=1e-4)
-    torch.testing.assert_close(features.cloud, expected_cloud, atol=1e-4, rtol=1e-4)
+    torch.testing.assert_close(features.points, expected_points, atol=5e-4, rtol=1e-4)
+    torch.testing.assert_close(features.cloud, expected_cloud, atol=5e-4, rtol=1e-4)
     assert (features.cloud < 0).any()  # no ReLU after the last layer
     assert [tuple(values.shape) for values in features.local] == [(6, 40, 64), (6, 40, 128)]
     assert features.points.shape == (6, 40, 64)

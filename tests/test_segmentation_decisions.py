@@ -25,7 +25,7 @@ def test_every_sentence_is_whole():
     [
         ({"training_input": "labelled", "training_points": None}, "the labelled points alone enter the network"),
         ({"training_input": "labelled", "training_points": 77}, "labelled points alone, at most 77 a step, enter"),
-        ({"training_points": 77}, "77 points of a cloud, half of them with labels"),
+        ({"training_points": 77}, "77 points of a cloud, three quarters of them with labels"),
         ({"full_supervision": {"epochs": 77, "training_points": None}}, "the row with all labels, with 77 epochs."),
         ({"points": 77}, "on 77 points of each cloud"),
         ({"axes": ["x", "z", "-y"]}, "x, y, z are x, z, -y of the files"),

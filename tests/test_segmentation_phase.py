@@ -144,8 +144,8 @@ def test_thinning_takes_labelled_points_equally_often_and_others_too():
     repeated = 20000
     taken, _ = thinned(points.expand(repeated, -1, -1), targets.expand(repeated, -1), 8)
     shares = torch.bincount(taken[..., 0].flatten().long(), minlength=20).double() / repeated
-    # Four of eight labelled points for sure, then four of the sixteen points that are left.
-    expected = torch.where(targets[0] >= 0, 4 / 8 + 4 / 8 * 4 / 16, 4 / 16)
+    # Six of eight labelled points for sure, then two of the fourteen points that are left.
+    expected = torch.where(targets[0] >= 0, 6 / 8 + 2 / 8 * 2 / 14, 2 / 14)
     assert (shares - expected).abs().max() < 5 * (0.25 / repeated) ** 0.5
 
 

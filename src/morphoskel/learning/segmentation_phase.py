@@ -16,7 +16,7 @@ from morphoskel.networks.pointnet_classifier import transform_penalty
 
 SEGMENTATION = "segmentation"
 
-LABELLED_SHARE = 0.5
+LABELLED_SHARE = 0.75
 """Of the points that are taken of a cloud, those that have labels for sure."""
 
 NOT_COUNTED = -1
@@ -126,8 +126,8 @@ def thinned(points: Tensor, targets: Tensor, count: int | None) -> tuple[Tensor,
     Returns
     -------
     tuple of Tensor
-        Points ``(B, count, 3)`` and targets ``(B, count)``, in random order. Half of the points, rounded up, have
-        labels where the cloud has so many; the others are drawn from all that are left.
+        Points ``(B, count, 3)`` and targets ``(B, count)``, in random order. Three quarters of the
+        points, rounded up, have labels where the cloud has so many; the others are drawn from all that are left.
     """
     if count is None or count >= points.shape[1]:
         return points, targets

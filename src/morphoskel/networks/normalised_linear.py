@@ -1,9 +1,9 @@
-"""A linear layer with batch normalisation that is computed as one linear map, and its maximum over the points.
+"""A linear layer with batch normalisation, and its maximum over the points, for which both become one linear map.
 
 The batch statistics of ``W x`` follow from the mean ``m`` and the covariance ``S`` of the inputs: mean ``W m`` and
-variance ``diag(W S W')``. With as many or fewer inputs than outputs that costs less than passing over the outputs, and
-the outputs need not exist at all where only their maximum over the points is wanted: the gradient then passes through
-the strongest points and the statistics alone. The result is that of ``nn.Linear`` and ``nn.BatchNorm1d``.
+variance ``diag(W S W')``. So the outputs need not exist at all where only their maximum over the points is wanted: the
+gradient then passes through the strongest points and the statistics alone. The result is that of ``nn.Linear`` and
+``nn.BatchNorm1d``, which are used as they are where the outputs at all points are needed.
 """
 
 from __future__ import annotations
@@ -103,8 +103,18 @@ class NormalisedLinear(nn.Module):
         return mean, variance
 
     def forward(self, values: Tensor) -> Tensor:
-        """Return ``(..., outputs)`` for ``(..., inputs)``."""
-        return nn.functional.linear(values, *self.fused(values))
+        """Return ``(..., outputs)`` for ``(..., inputs)``.
+
+        Raises
+        ------
+        ValueError
+            For a single row in training mode.
+        """
+        if not self.training:
+            return nn.functional.linear(values, *self.fused(values))
+        outputs = self.linear(values)
+        normalised: Tensor = self.normalise(outputs.flatten(0, -2))
+        return normalised.view_as(outputs)
 
 
 class PooledLinear(NormalisedLinear):

@@ -58,8 +58,8 @@ class SegmentationSettings:
         all: all points of a training cloud enter the network, and the loss counts those with labels; labelled: only
         the points with labels enter.
     training_points
-        Points of a cloud that enter a step of the training, half of them with labels, drawn anew in every step; at
-        least 1. ``None``, as published: all. But for maxima over the points and the statistics of the batch, the
+        Points of a cloud that enter a step of the training, three quarters of them with labels, drawn anew in every
+        step; at least 1. ``None``, as published: all. But for maxima over the points and the statistics of the batch, the
         network works at each of them alone, so that a step costs in proportion; more clouds a step then teach more in
         the same time.
 

@@ -47,7 +47,7 @@ def _inputs(training_input: str, training_points: int | None) -> str:
     cloud = (
         "the whole cloud enters"
         if training_points is None
-        else f"{training_points} points of a cloud, half of them with labels, drawn anew in every step, enter"
+        else f"{training_points} points of a cloud, three quarters of them with labels, drawn anew in every step, enter"
     )
     return f"In training {cloud} the network, and the loss counts the labelled points alone."
 

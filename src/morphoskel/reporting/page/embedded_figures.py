@@ -33,6 +33,9 @@ QUALITIES = (92, 84, 76)
 LOSSLESS_EFFORT = 50
 """What WebP calls quality of pictures without loss: how long it searches for a smaller file, out of 100."""
 
+LOSSLESS_SHARE = 0.4
+"""Of the size of a PNG file: about the least that the same picture takes as WebP without loss."""
+
 SHRINK = 0.8
 """Factor on both sides of a picture for which no quality is small enough."""
 
@@ -129,8 +132,10 @@ def compress_picture(path: Path, most_bytes: int) -> tuple[bytes, int, int]:
         raise InputError(f"{path}: cannot be read as a picture ({error}); draw the figure again") from error
     longest = min(max(picture.size), MOST_PIXELS)
     smaller = _resized(picture, longest)
-    content = _webp(smaller, lossless=True, quality=LOSSLESS_EFFORT)
-    while len(content) > most_bytes:
+    content = b""
+    if LOSSLESS_SHARE * path.stat().st_size <= most_bytes:  # else seconds would be lost on finding that out
+        content = _webp(smaller, lossless=True, quality=LOSSLESS_EFFORT)
+    while not 0 < len(content) <= most_bytes:
         smaller = _resized(picture, longest)
         for quality in QUALITIES:
             content = _webp(smaller, lossless=False, quality=quality)
