@@ -59,9 +59,9 @@ class SegmentationSettings:
         the points with labels enter.
     training_points
         Points of a cloud that enter a step of the training, three quarters of them with labels, drawn anew in every
-        step; at least 1. ``None``, as published: all. But for maxima over the points and the statistics of the batch, the
-        network works at each of them alone, so that a step costs in proportion; more clouds a step then teach more in
-        the same time.
+        step; at least 1. ``None``, as published: all. But for maxima over the points and the statistics of the batch,
+        the network works at each of them alone, so that a step costs in proportion; more clouds a step then teach more
+        in the same time.
 
     Raises
     ------
