@@ -31,3 +31,11 @@ def test_the_second_data_set_has_settings_of_its_own():
 
 def test_what_is_not_there_is_none():
     assert Extent(config(), COUNTS).setting("skeleton.no.such", {}) is None
+
+
+def test_a_section_tells_what_the_second_data_set_has_of_its_own():
+    extent = Extent(config("tasks.segmentation.skeletons.depth=5"), COUNTS)
+    first, second = {"dataset": "synthetic"}, {"dataset": "other"}
+    assert extent.setting("surface.repaired_poisson", first)["depth"] != 5
+    assert extent.setting("surface.repaired_poisson", second)["depth"] == 5
+    assert extent.setting("surface.ball_pivoting", second) == extent.setting("surface.ball_pivoting", first)

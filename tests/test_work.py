@@ -38,7 +38,7 @@ def test_other_settings_make_another_fingerprint():
 
 def test_epochs_are_scaled_with_and_sizes_must_agree():
     work, classifier = WORK["train_classifier"], {"dataset": "synthetic", "classifier": "task"}
-    longer = Extent(config("tasks.classification.classifier.epochs=100"), EXTENT.counts)
+    longer = Extent(config("tasks.classification.classifier.epochs=60"), EXTENT.counts)
     larger = Extent(config("tasks.classification.classifier.batch_size=5"), EXTENT.counts)
     assert work.amount(longer, classifier) == 2 * work.amount(EXTENT, classifier)
     assert fingerprint(work, EXTENT, classifier) == fingerprint(work, longer, classifier)

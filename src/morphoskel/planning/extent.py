@@ -34,13 +34,20 @@ class Extent:
 
     def setting(self, path: str, wildcards: Mapping[str, str]) -> Any:
         """Return the value at a dotted path, as it holds for the data set of a job; ``None`` where there is none."""
-        if path in OWN_FOR_PARTS and self._of_second(wildcards):
-            own = self.setting("tasks.segmentation.skeletons", {}) or {}
-            if (value := own.get(OWN_FOR_PARTS[path])) is not None:
-                return value
         found: Any = self.config
         for key in path.split("."):
             found = found.get(key) if isinstance(found, Mapping) else None
+        if not self._of_second(wildcards):
+            return found
+        own = self.setting("tasks.segmentation.skeletons", {}) or {}
+        for changed, name in OWN_FOR_PARTS.items():
+            if (value := own.get(name)) is None:
+                continue
+            section, _, key = changed.rpartition(".")
+            if changed == path:
+                found = value
+            elif section == path and isinstance(found, Mapping):
+                found = {**found, key: value}
         return found
 
     def shapes(self, wildcards: Mapping[str, str], split: str | None = None) -> int:
