@@ -45,6 +45,24 @@ def test_variants_of_ms3d_and_rows_under_other_conditions_are_no_rivals():
     assert compare(frame, "cd_recon", "x", ", 100 balls") is None
 
 
+@pytest.mark.parametrize(
+    ("values", "told"),
+    [
+        (
+            {"MS3D_coverage": 0.1, "MS3D_coverage__repaired_Poisson": 0.05},
+            "MS3D coverage (repaired Poisson), has 0.0500.",
+        ),
+        ({"MS3D_coverage": 0.1, "MS3D_coverage__100_balls": 0.05}, "MS3D coverage, has 0.1000."),
+        ({"MS3D_coverage": 0.4}, None),
+        ({}, None),
+    ],
+)
+def test_our_own_selection_is_told_where_it_is_the_best(values, told):
+    frame = table("cd_recon", MEAN_OVER_SHAPES, MS3D=0.5, DPC=0.3, **values)
+    text = summarise({"skeleton_reconstruction": frame}).replace("\N{NO-BREAK SPACE}", " ")
+    assert "our own selection" not in text if told is None else text.endswith(f"our own selection of its balls, {told}")
+
+
 def test_the_largest_ratio_at_which_there_is_something_to_compare():
     frame = pd.concat([table("oa", "8", MS3D=9.0, FPS=8.0), table("oa", "16", MS3D=7.0, FPS=6.0),
                        table("oa", "32", MS3D=math.nan, FPS=5.0)])  # fmt: skip
