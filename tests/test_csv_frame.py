@@ -1,6 +1,9 @@
+import pandas as pd
 import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 
-from morphoskel.csv_frame import read_csv_frame
+from morphoskel.csv_frame import read_csv_frame, write_csv_frame
 from morphoskel.errors import InputError
 
 
@@ -37,3 +40,18 @@ def test_anything_else_names_the_file(text, options, message, tmp_path):
 def test_an_absent_file_is_named(tmp_path):
     with pytest.raises(InputError, match=r"rows\.csv: no such file; expected a table with the columns id, value"):
         read_csv_frame(tmp_path / "rows.csv", ("id", "value"))
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=8), min_size=1))
+@example(["\r", "a\r\nb", '"', ",", "\n"])
+def test_any_text_comes_back(tmp_path_factory, texts):
+    path = tmp_path_factory.mktemp("csv") / "a.csv"
+    write_csv_frame(pd.DataFrame({"text": texts, "number": range(len(texts))}), path)
+    frame = read_csv_frame(path, ["text", "number"], dtype={"text": str, "number": int}, keep_default_na=False)
+    assert frame["text"].tolist() == texts
+
+
+def test_lines_end_in_line_feeds(tmp_path):
+    write_csv_frame(pd.DataFrame({"a": [1, 2], "b": ["x", "y\r\n"]}), tmp_path / "a.csv")
+    assert (tmp_path / "a.csv").read_bytes() == b'a,b\n1,x\n2,"y\r\n"\n'

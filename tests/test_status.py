@@ -1,7 +1,7 @@
 import dataclasses
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from morphoskel.chain.status import Status, read_status, write_status
@@ -50,6 +50,7 @@ def test_a_damaged_status_is_refused(tmp_path):
 @settings(max_examples=60, deadline=None)
 @given(st.builds(Status, st.just("a"), TEXT, st.sampled_from(["ok", "failed"]), TEXT, TEXT, st.integers(1, 2),
                  THOUSANDTHS, THOUSANDTHS, TEXT, TEXT))  # fmt: skip
+@example(Status("a", "", "ok", "\r", "a\r\nb", 1, 0.0, 0.0, '"', "\r"))
 def test_any_text_comes_back(tmp_path_factory, row):
     folder = tmp_path_factory.mktemp("round_trip")
     write_status(folder, [row])

@@ -1,17 +1,32 @@
-"""Read a CSV file as a data frame, with errors that name the file."""
+"""Write a data frame as CSV, whatever text it holds, and read one, with errors that name the file."""
 
 from __future__ import annotations
 
+import io
 import warnings
 from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from morphoskel.checksums import intact
+from morphoskel.csv_lines import QUOTED_ENDS, LineFeeds
 from morphoskel.errors import InputError
 
 if TYPE_CHECKING:
     import pandas as pd
+
+
+def write_csv_frame(frame: pd.DataFrame, path: Path) -> None:
+    """Write a frame without its index: UTF-8, line feeds, and text quoted wherever a reader would misread it."""
+    path.write_text(csv_text(frame), encoding="utf-8", newline="")
+
+
+def csv_text(frame: pd.DataFrame) -> str:
+    """Return what :func:`write_csv_frame` writes."""
+    stream = io.StringIO(newline="")
+    lines: Any = LineFeeds(stream)  # pandas asks for more than it uses
+    frame.to_csv(lines, index=False, lineterminator=QUOTED_ENDS)
+    return stream.getvalue()
 
 
 def read_csv_frame(path: Path, columns: Collection[str], *, exactly: bool = False, **options: Any) -> pd.DataFrame:

@@ -27,6 +27,7 @@ def main():
         record(load, REPOSITORY / "results" / "reference" / "load", REPOSITORY / "docs" / "load.md")
         return 0
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # so that the run does not outlive this process
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # background jobs of a shell ignore it
     load.folder.mkdir(parents=True, exist_ok=True)
     prepare(load)
     summary = summarise(load, run_to_end(load))

@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
 from morphoskel.checksums import LIST, intact, write_checksums
+from morphoskel.csv_lines import QUOTED_ENDS, LineFeeds
 from morphoskel.errors import InputError, StorageError
 
 FILE_NAME = "status.csv"
@@ -62,7 +63,8 @@ def write_status(folder: Path, rows: Iterable[Status]) -> None:
     Called last: a file that is written later is damaged in the eyes of a reader.
     """
     with (folder / FILE_NAME).open("w", encoding="utf-8", newline="") as stream:
-        writer = csv.DictWriter(stream, [field.name for field in fields(Status)], lineterminator="\n")
+        names = [field.name for field in fields(Status)]
+        writer = csv.DictWriter(LineFeeds(stream), names, lineterminator=QUOTED_ENDS)
         writer.writeheader()
         for row in sorted(rows, key=lambda row: row.id):
             times = {name: f"{getattr(row, name):.3f}" for name in ("seconds", "seconds_so_far")}

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from morphoskel.checksums import checked_file, intact
+from morphoskel.csv_lines import QUOTED_ENDS, LineFeeds
 from morphoskel.errors import DatasetError
 from morphoskel.progress import count_up, track
 
@@ -141,7 +142,7 @@ def checksum(*paths: Path, progress: bool = False) -> str:
 def write_manifest(path: Path, records: Iterable[ShapeRecord]) -> None:
     """Write `records` as CSV (UTF-8, line feeds only): equal records give equal bytes."""
     with checked_file(path) as partial, partial.open("w", encoding="utf-8", newline="") as stream:
-        writer = csv.writer(stream, lineterminator="\n")
+        writer = csv.writer(LineFeeds(stream), lineterminator=QUOTED_ENDS)
         writer.writerow(COLUMNS)
         for record in records:
             row = (record.id, record.category, record.split, record.shard, record.path.as_posix(), record.sha256)

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from morphoskel.checksums import checked_file
+from morphoskel.csv_frame import write_csv_frame
 from morphoskel.evaluation.classification import classify
 from morphoskel.evaluation.retrieval import average_precisions
 from morphoskel.progress import track
@@ -125,7 +126,7 @@ def evaluate_files(
     )
     for frame, path in zip(frames, outputs, strict=True):
         with checked_file(path) as partial:
-            frame.to_csv(partial, index=False)
+            write_csv_frame(frame, partial)
 
 
 def _judge(choice: Choice, clouds: CloudSet, classifier: PointNetClassifier) -> Iterator[Values]:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from morphoskel.checksums import checked_file
-from morphoskel.csv_frame import read_csv_frame
+from morphoskel.csv_frame import read_csv_frame, write_csv_frame
 from morphoskel.errors import InputError
 from morphoskel.morphology import dilation
 from morphoskel.progress import track
@@ -87,7 +87,7 @@ def write_scaling(
     """
     frame = measure_scaling(mesh, counts, k=k, seed=seed, repeats=repeats, threads=threads)
     with checked_file(path) as partial:
-        frame.to_csv(partial, index=False, lineterminator="\n")
+        write_csv_frame(frame, partial)
 
 
 def read_scaling(path: Path) -> pd.DataFrame:

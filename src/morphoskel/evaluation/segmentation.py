@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from morphoskel.checksums import checked_file
+from morphoskel.csv_frame import write_csv_frame
 from morphoskel.errors import InputError
 from morphoskel.progress import track
 from morphoskel.shapes import FloatArray, IntArray
@@ -164,7 +165,7 @@ def evaluate_segmentation_files(
         case = pd.DataFrame({"strategy": strategy, "ratio": ratio, "seed": number}, index=frame.index)
         frames.append(pd.concat([case, frame], axis="columns").assign(labels=labels))
     with checked_file(output) as partial:
-        pd.concat(frames, ignore_index=True).to_csv(partial, index=False)
+        write_csv_frame(pd.concat(frames, ignore_index=True), partial)
 
 
 def _mean_labels(trained: Sequence[tuple[IntArray, int]], samples: Sequence[Path], request: LabelRequest) -> float:

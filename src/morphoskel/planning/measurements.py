@@ -14,6 +14,7 @@ import yaml
 
 from morphoskel.atomic import atomic_file
 from morphoskel.chain.status import read_status
+from morphoskel.csv_lines import QUOTED_ENDS, LineFeeds
 from morphoskel.errors import InputError
 from morphoskel.planning.extent import Extent
 from morphoskel.planning.work import WORK, Work, fingerprint
@@ -130,7 +131,7 @@ def count_run(folder: Path, config: Mapping[str, Any]) -> dict[str, dict[str, in
 def write_measurements(path: Path, measurements: Sequence[Measured]) -> None:
     """Write measurements as CSV, so that plans can be made without the run that they are of."""
     with atomic_file(path) as partial, partial.open("w", newline="") as stream:
-        writer = csv.DictWriter(stream, [each.name for each in fields(Measured)], lineterminator="\n")
+        writer = csv.DictWriter(LineFeeds(stream), [each.name for each in fields(Measured)], lineterminator=QUOTED_ENDS)
         writer.writeheader()
         for measured in measurements:
             values = asdict(measured)

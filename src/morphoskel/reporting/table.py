@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from morphoskel.atomic import atomic_file
-from morphoskel.csv_frame import read_csv_frame
+from morphoskel.csv_frame import csv_text, read_csv_frame
 from morphoskel.errors import InputError
 from morphoskel.evaluation.averages import AVERAGES
 from morphoskel.evaluation.protocol import EvaluationProtocol, check_protocol
@@ -158,7 +158,7 @@ def write_table(frame: pd.DataFrame, stem: Path, caption: str, footnotes: Sequen
         raise InputError(f"{stem}: a result table has the columns {', '.join(COLUMNS)}, got {', '.join(frame.columns)}")
     matrices = metric_matrices(frame)
     contents = {
-        "csv": _csv_frame(frame).to_csv(index=False, lineterminator="\n"),
+        "csv": csv_text(_csv_frame(frame)),
         "md": render_markdown(matrices, caption, footnotes),
         "tex": render_latex(matrices, caption, footnotes),
     }
