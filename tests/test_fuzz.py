@@ -1,6 +1,7 @@
 """A bounded number of damaged files for every reader, and the harness that makes and judges them."""
 
 import contextlib
+import faulthandler
 import io
 import json
 import logging
@@ -96,6 +97,7 @@ def test_slow_readers_are_found(tmp_path, monkeypatch):
 
 
 def crash():
+    faulthandler.disable()  # what it prints would look like a fault of the tests
     os.kill(os.getpid(), signal.SIGSEGV)
 
 
