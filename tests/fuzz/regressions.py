@@ -7,6 +7,8 @@ import struct
 import zipfile
 from dataclasses import dataclass
 
+import numpy as np
+
 HUGE = b"7" * 5000
 """Python refuses to convert numbers of so many digits, with an error of its own."""
 
@@ -49,6 +51,16 @@ def archive(**members: bytes) -> bytes:
     return packed.getvalue()
 
 
+def chosen_points(sizes: list[float]) -> bytes:
+    """Return chosen points of a cloud of two, with these local feature sizes."""
+    arrays = {
+        "indices": np.arange(2), "points": np.eye(3)[:2], "cloud": np.eye(3)[:2], "local_feature_size": np.array(sizes),
+    }  # fmt: skip
+    packed = io.BytesIO()
+    np.savez(packed, **arrays)
+    return packed.getvalue()
+
+
 TOO_LARGE = declared("(1000000000000, 3)")
 TORN = npy(b"{': '|V8', 'shape': (10000000000")
 
@@ -71,6 +83,10 @@ REGRESSIONS: tuple[Regression, ...] = (
     Regression("benchmark", "another encoding", b"\xfe"),
     Regression("pcd", "a field of a billion values a point",
                b"FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 933725807\nWIDTH 8\nHEIGHT 0\nDATA binary"),
+    Regression("pcd", "a comma for the size of a field made another type",
+               b"FIELDS x y z\nSIZE , 4 4\nTYPE F F F\nPOINTS 1\nDATA binary\n" + bytes(8)),
+    Regression("pcd", "a size of thousands of digits",
+               b"FIELDS x y z\nSIZE ," + HUGE + b" 4 4\nTYPE F F F\nPOINTS 1\nDATA binary\n"),
     Regression("text", "a count of thousands of digits", HUGE),
     Regression("medial_axis_ma", "a count of thousands of digits", HUGE + b" 0 0"),
     Regression("medial_axis_ply", "a count of thousands of digits", b"ply\nelement vertex " + HUGE + b"\nend_header\n"),
@@ -92,6 +108,9 @@ REGRESSIONS: tuple[Regression, ...] = (
         )
         for what, content in _ARRAY_FAULTS.items()
     ),
+    Regression("chosen_points", "an infinite local feature size gave a warning", chosen_points([0.1, float("inf")])),
+    Regression("chosen_points", "a local feature size that is none: the message named no file",
+               chosen_points([float("nan"), 0.1])),
     Regression("illustration", "a member that is no array was taken for one", archive(name=b"pyramid")),
     Regression("manifest", "a shard of thousands of digits",
                b"id,category,split,shard,path,sha256\ns0,Lamp,test," + HUGE + b",a," + b"0" * 64),

@@ -16,6 +16,7 @@ from morphoskel.formats.lines import parse_table, significant_lines
 from morphoskel.shapes import Mesh, PointCloud
 
 _KINDS = {"F": "f", "I": "i", "U": "u"}
+_SIZES = {"1", "2", "4", "8"}
 _MOST_VALUES = 1 << 16
 """Of a field and point; the longest descriptors in use have some thousands."""
 
@@ -76,6 +77,8 @@ def _parse_header(content: bytes, data: str) -> _Header:
         raise InputError(f"DATA: expected ascii, binary or binary_compressed, got {data!r}")
     try:
         names, kinds = entries["FIELDS"], [_KINDS[kind] for kind in entries["TYPE"]]
+        if not set(entries["SIZE"]) <= _SIZES:  # numpy would take a comma for the end of a field
+            raise ValueError(f"a SIZE is none of {', '.join(sorted(_SIZES))}")
         counts = [int(count) for count in entries.get("COUNT", ["1"] * len(names))]
         types = [np.dtype(f"<{kind}{size}").str for kind, size in zip(kinds, entries["SIZE"], strict=True)]
         fields = tuple(zip(names, types, counts, strict=True))

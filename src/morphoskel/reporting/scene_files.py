@@ -131,6 +131,11 @@ def _chosen(path: Path, arrays: Arrays) -> _Chosen:
     fits = indices.shape == (len(points),) and (indices >= 0).all() and (count is None or (indices < count).all())
     if not fits or (sizes is not None and sizes.shape != (count,)):
         raise InputError(f"{path}: its arrays do not match each other; choose the points anew with `morphoskel sample`")
+    if sizes is not None and not (np.isfinite(sizes) & (sizes >= 0)).all():
+        raise InputError(
+            f"{path}: local_feature_size: expected finite distances, none below 0; choose the points anew with "
+            "`morphoskel sample`"
+        )
     return _Chosen(points, indices, cloud, sizes, skeleton)
 
 
