@@ -105,3 +105,15 @@ def test_the_surface_of_a_cloud_is_rebuilt(tmp_path):
     assert len(ball.cloud) == 400
     assert np.linalg.norm(ball.surface.vertices, axis=1).mean() == pytest.approx(1, abs=0.12)
     assert ball.udf.max() == pytest.approx(1, abs=0.2)
+
+
+def test_triangles_that_are_no_whole_numbers_are_refused(tmp_path):
+    path = tmp_path / "ball.npz"
+    write_illustration(path, illustrated())
+    with np.load(path) as stored:
+        arrays = dict(stored)
+    arrays["triangles"] = arrays["triangles"].astype(float)
+    arrays["triangles"][0, 0] = np.nan
+    np.savez(path, **arrays)
+    with pytest.raises(InputError, match=r"ball\.npz: triangles: expected whole numbers"):
+        read_illustration(path)

@@ -11,6 +11,7 @@ import numpy as np
 
 from morphoskel.atomic import atomic_file
 from morphoskel.errors import InputError
+from morphoskel.formats.assemble import as_numbers, as_whole_numbers
 from morphoskel.formats.stored_arrays import read_arrays
 from morphoskel.reporting.illustrate import illustrate
 from morphoskel.reporting.illustrated_shapes import EXACT_SOLIDS, shape_from
@@ -45,7 +46,9 @@ def read_illustration(path: Path) -> Illustration:
         raise InputError(f"{path}: expected an illustration, but it has no {', '.join(missing)}; make it anew")
     try:
         return Illustration(
-            surface=Mesh(*(arrays[name] for name in _SURFACE)),
+            surface=Mesh(
+                as_numbers(arrays["vertices"], "vertices"), as_whole_numbers(arrays["triangles"], "triangles")
+            ),
             **{name: _scalar(arrays, name, "U") for name in _TEXTS},
             **{name: _scalar(arrays, name, "i") for name in _NUMBERS},
             **{name: arrays[name] for name in _ARRAYS},
