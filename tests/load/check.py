@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 
 from morphoskel.chain.status import read_status
+from morphoskel.errors import MorphoSkelError
 from morphoskel.formats.skeleton_file import read_skeleton
 from morphoskel.run_provenance import collect_provenance
 from tests.load.clouds import split_counts
@@ -118,7 +119,7 @@ def _state(folder, row):
         return "failed"
     try:
         return "complete" if len(read_skeleton(folder / f"{row.id}.ply")) else "unreadable"
-    except Exception:
+    except (MorphoSkelError, OSError):
         return "unreadable"
 
 

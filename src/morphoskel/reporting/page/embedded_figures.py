@@ -34,7 +34,7 @@ LOSSLESS_EFFORT = 50
 """What WebP calls quality of pictures without loss: how long it searches for a smaller file, out of 100."""
 
 LOSSLESS_SHARE = 0.4
-"""Of the size of a PNG file: about the least that the same picture takes as WebP without loss."""
+"""Of the size of a PNG file: less than the same picture takes as WebP without loss. Eight figures took 0.43 to 1.15."""
 
 SHRINK = 0.8
 """Factor on both sides of a picture for which no quality is small enough."""

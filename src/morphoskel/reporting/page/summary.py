@@ -136,15 +136,14 @@ def _clauses(frames: Mapping[str, pd.DataFrame]) -> Iterator[str]:
 
 
 def _best_variant(frame: pd.DataFrame, found: Comparison, group: str) -> str:
-    """Return what the best row of our own selection has, if it is better than MS3D and all others; else nothing."""
+    """Return the smallest value of our own selection, if MS3D and all others have larger ones; else nothing."""
     rows = frame[(frame["metric"] == found.metric.name) & (frame["group"] == group) & frame["value"].notna()]
     rows = rows[rows["method"].str.startswith(VARIANT) & (rows["method"].map(rivals) == "")]
-    sign = 1 if found.metric.better == "lower" else -1
     if rows.empty:
         return ""
-    best = rows.sort_values("value", ascending=sign > 0, kind="stable").iloc[0]
+    best = rows.sort_values("value", kind="stable").iloc[0]
     value = float(best["value"])
-    if sign * value >= min(sign * found.ours, sign * found.other):
+    if value >= min(found.ours, found.other):
         return ""
     return f"; our own selection of its balls, {_told_surface(str(best['method']))}, has {found.shown(value)}"
 
