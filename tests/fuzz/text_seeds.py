@@ -211,7 +211,9 @@ def compose(compose: Callable[..., Any], path: Path) -> object:
     with (
         mock.patch.object(OmegaConf, "load", _load_once),
         mock.patch.object(hydra, "compose", untraced()(hydra.compose)),
-        mock.patch.object(ConfigLoaderImpl, "compute_defaults_list", untraced()(ConfigLoaderImpl.compute_defaults_list)),
+        mock.patch.object(
+            ConfigLoaderImpl, "compute_defaults_list", untraced()(ConfigLoaderImpl.compute_defaults_list)
+        ),
     ):
         return compose(_lines(path))
 
