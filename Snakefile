@@ -6,6 +6,7 @@ min_version("9.27")
 
 
 include: "workflow/rules/common.smk"
+include: "workflow/rules/skeleton_inputs.smk"
 include: "workflow/rules/sampling_inputs.smk"
 include: "workflow/rules/figure_inputs.smk"
 include: "workflow/rules/data.smk"
