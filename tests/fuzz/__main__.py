@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import logging
 import sys
 from pathlib import Path
 
@@ -23,6 +24,7 @@ def main() -> int:
     unknown = [name for name in parsed.readers if name not in READERS]
     if unknown:
         parser.error(f"no such reader: {', '.join(unknown)}")
+    logging.basicConfig(level=logging.INFO, format="%(message)s")
     found = 0
     for name in parsed.readers or READERS:
         result = fuzz_reader(name, count=parsed.count, seed=parsed.seed)

@@ -9,6 +9,7 @@ import resource
 import signal
 import tempfile
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -16,6 +17,7 @@ from typing import Any
 
 from fuzz.judge import Finding
 from fuzz.loop import Tally, fuzz, minimise
+from morphoskel.progress import count_up
 from morphoskel.seeds import derive_seed
 
 MOST_CPU_SECONDS, MOST_WALL_SECONDS = 10, 120
@@ -48,20 +50,27 @@ class Result:
 def fuzz_reader(name: str, *, count: int, seed: int) -> Result:
     """Feed `count` inputs to a reader; after a crash, a new process does what is left."""
     started, total = time.monotonic(), Tally()
-    with tempfile.TemporaryDirectory(prefix="morphoskel-fuzz-") as folder:
+    with (
+        tempfile.TemporaryDirectory(prefix="morphoskel-fuzz-") as folder,
+        count_up(name, unit="input", total=count) as advance,
+    ):
         for attempt in range(50):  # a reader that crashes so often need not be tested further
             left = count - total.outcomes.total()
             if left <= 0:
                 break
-            _merge(total, *_run(name, Path(folder) / str(attempt), left, derive_seed(seed, name, str(attempt))))
+            _merge(
+                total, *_run(name, Path(folder) / str(attempt), left, derive_seed(seed, name, str(attempt)), advance)
+            )
     return Result(
         name, seed, total.outcomes.total(), total.outcomes["read"], total.outcomes["refused"], total.steps, total.kept,
         time.monotonic() - started, tuple(total.findings.values()),
     )  # fmt: skip
 
 
-def _run(name: str, folder: Path, count: int, seed: int) -> tuple[Tally, Finding | None]:
-    """Return what a process reports, and what it died of, if it did."""
+def _run(
+    name: str, folder: Path, count: int, seed: int, advance: Callable[[int], None]
+) -> tuple[Tally, Finding | None]:
+    """Return what a process reports, and what it died of, if it did; tell how many more inputs each report counts."""
     folder.mkdir()
     context = multiprocessing.get_context("fork")  # what is imported already need not be imported again
     receive, send = context.Pipe(duplex=False)
@@ -75,6 +84,7 @@ def _run(name: str, folder: Path, count: int, seed: int) -> tuple[Tally, Finding
             if isinstance(message, Path):
                 last = message
             else:
+                advance(message.outcomes.total() - tally.outcomes.total())
                 tally = message
     except EOFError:
         process.join()
