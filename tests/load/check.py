@@ -9,8 +9,9 @@ import pandas as pd
 from morphoskel.chain.status import read_status
 from morphoskel.errors import MorphoSkelError
 from morphoskel.formats.skeleton_file import read_skeleton
-from morphoskel.run_provenance import collect_provenance
+from morphoskel.run_provenance import collect_provenance, read_provenance
 from tests.load.clouds import split_counts
+from tests.load.run import COPIED_FROM
 
 WARM_UP = 0.25
 """Share of the looks at a series that are left out: libraries are still being loaded, caches and heaps filled."""
@@ -140,7 +141,7 @@ def summarise(load, attempts):
     provenance = collect_provenance()
     summary = {
         "date": provenance["date"],
-        "commit": provenance["commit"],
+        "commit": read_provenance(load.repository / COPIED_FROM)["commit"],
         "machine": provenance["machine"],
         "shapes": load.shapes,
         "shard_size": load.shard_size,

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import psutil
 
+from morphoskel.run_provenance import write_provenance
 from tests.load.clouds import split_counts, write_clouds
 from tests.load.processes import snapshot, survivors
 
@@ -29,6 +30,9 @@ INTERRUPTS = ((0.10, signal.SIGINT), (0.25, signal.SIGKILL))
 
 PATIENCE = 120.0
 """Seconds that the processes of a run have to end after a signal."""
+
+COPIED_FROM = "copied_from.json"
+"""The provenance of the code that runs, in its folder: the repository may go on meanwhile."""
 
 MEMORY_COLUMNS = ("seconds", "attempt", "jobs", "role", "stage", "pid", "megabytes")
 
@@ -102,6 +106,7 @@ def prepare(load):
             shutil.copytree(REPOSITORY / name, partial / name, ignore=shutil.ignore_patterns("*.pyc"))
         for name in ("Snakefile", "environment.yml"):
             shutil.copy2(REPOSITORY / name, partial)
+        write_provenance(partial / COPIED_FROM)
         partial.rename(load.repository)
     if not (load.repository / "clouds").exists():
         logger.info("writing %d clouds", load.shapes)
