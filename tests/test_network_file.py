@@ -32,3 +32,15 @@ def test_what_fails_while_the_network_is_built_is_the_fault_of_the_file(tmp_path
     broken = pytest.raises(InputError, match=r"network\.pt: not a layer of this version")
     with broken, read_network(tmp_path / "network.pt", "layer"):
         raise error
+
+
+def test_the_error_of_another_network_is_short_and_tells_its_first_difference(tmp_path):
+    write_network(torch.nn.Identity(), tmp_path / "network.pt")
+    layers = torch.nn.Sequential(*(torch.nn.Linear(2, 2) for _ in range(200)))
+    with (
+        pytest.raises(InputError, match=r"0\.weight") as raised,
+        read_network(tmp_path / "network.pt", "net") as content,
+    ):
+        layers.load_state_dict(content["weights"])
+    assert len(str(raised.value)) < 400 + len(str(tmp_path))
+    assert str(raised.value).endswith("train it again")

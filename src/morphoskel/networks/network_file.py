@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -58,7 +59,9 @@ def read_network(path: Path | str, what: str) -> Iterator[dict[str, Any]]:
     except StorageError:
         raise
     except Exception as error:  # whatever PyTorch meets in damaged data, or a network in values of another version
-        raise InputError(f"{path}: not a {what} of this version ({error}); train it again") from error
+        # PyTorch lists every weight that is missing.
+        reason = textwrap.shorten(str(error), 300, placeholder=" ...")
+        raise InputError(f"{path}: not a {what} of this version ({reason}); train it again") from error
 
 
 def _checked(path: Path) -> Path:
