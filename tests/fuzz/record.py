@@ -46,8 +46,9 @@ handled wrongly once (`tests/fuzz/regressions.py`). The tests of the formats wri
 ## Last recorded runs
 
 *read*: the damage did not matter, or gave another legal file. *steps*: from one line of our code to the next that some
-input took. *mended*: faults that fuzzing found, or that were found by looking for the like elsewhere, each with a
-regression test. The seed and the files that a reader starts with decide the inputs.
+input took. *findings*: different faults of that run, of which one may have met many inputs. *mended*: faults that
+fuzzing found, or that were found by looking for the like elsewhere, each with a regression test; those of the recorded
+run stay among its findings. The seed and the files that a reader starts with decide the inputs.
 """
 
 
@@ -84,7 +85,13 @@ def render(recorded: dict[str, Any]) -> str:
         else:
             cells = [name, f"`{reader.function.replace(':', '.')}`", "", *["not run"] * 5, f"{mended[name]:,}"]
         rows.append(f"| {' | '.join(map(str, cells))} |")
-    left = [f"- {name}: {finding}" for name, one in recorded.items() for finding in one["findings"]]
+    known = {(regression.reader, regression.finding) for regression in REGRESSIONS}
+    left = [
+        f"- {name}: {finding}"
+        for name, one in recorded.items()
+        for finding in one["findings"]
+        if (name, finding) not in known
+    ]
     found = [
         f"- {name}: {', '.join(r.what for r in REGRESSIONS if r.reader == name)}" for name in READERS if mended[name]
     ]

@@ -25,11 +25,14 @@ class Regression:
         The fault, as it was.
     content
         The file.
+    finding
+        What the recorded run called it, if that found it: there it is counted, but it is no fault any more.
     """
 
     reader: str
     what: str
     content: bytes
+    finding: str = ""
 
 
 def npy(header: bytes, data: bytes = b"") -> bytes:
@@ -137,4 +140,7 @@ REGRESSIONS: tuple[Regression, ...] = (
     Regression("shapenetpart_labels", "a label of no part: the message named another file", b"1\n1\n7\n2\n3\n3"),
     Regression("shapenetpart_labels", "a label at the end of 64 bits overflowed",
                b"1\n1\n1\n9223372036854775807\n1\n1"),
+    Regression("configuration", "a number in place of all samplers", b"samplers=6",
+               "error: TypeError in compose.py, _drop_unchosen"),
+    Regression("configuration", "a word in place of all methods", b"methods=abc"),
 )  # fmt: skip

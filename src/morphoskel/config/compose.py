@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, MutableMapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -87,9 +87,12 @@ def validate(values: Any) -> Config:
 def _drop_unchosen(tree: Any, chosen: Collection[str]) -> None:
     """Drop what an experiment says of members of a group that are not chosen, so that they do not run."""
     for group, section in MEMBERS_OF.items():
-        for name in list(tree.get(section) or {}):
+        members = tree.get(section)
+        if not isinstance(members, MutableMapping):
+            continue  # an override put a plain value in its place, which the schema refuses by name
+        for name in list(members):
             if f"{group}/{name}" not in chosen:
-                del tree[section][name]
+                del members[name]
 
 
 def _explain_composition(error: Exception) -> str:
